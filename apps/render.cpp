@@ -26,9 +26,8 @@ Examples:
   gatelight render room.glb -o room.exr -o room.png --spp 256 --size 1920x1080
   gatelight render hall.glb -o hall.png --camera hall --environment 0.65,0.8,1 --exposure 1 --tonemap filmic
   gatelight render house.glb -o house.png --sky "date=2026-06-21, time=18:30, place=48.1,11.6, zone=+2"
-  gatelight render car.gltf -o car.exr --eye 4,1.5,4 --target 0,0.5,0 --fov 30 --aov albedo,normal,depth
+  gatelight render robot.glb -o robot-%04d.png --preset standard --frames 0:47 --fps 24
   gatelight render room.glb -o room.png --preset preview --cache-out room.safetensors
-  gatelight render room.glb -o room.exr --time-limit 60 --stats room.json --progress json
   gatelight render room.glb -o room.exr --preset standard --time-limit 10
   gatelight render room.glb -o room.exr --denoiser oidn --max-error 0.05)";
 

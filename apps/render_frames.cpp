@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "apps/render_run.h"
@@ -11,6 +12,7 @@
 #include "apps/terminal/log.h"
 #include "apps/terminal/terminal.h"
 #include "base/errors.h"
+#include "renderer/settings/resolved_options.h"
 
 namespace gatelight::apps {
 namespace {
@@ -29,6 +31,9 @@ renderer::CameraOptions camera_of_frame(const RenderSettings& settings, int fram
 RenderSettings settings_of_frame(const RenderSettings& whole, int frame) {
   RenderSettings settings = whole;
   settings.load.time = whole.frames.seconds(frame);
+  settings.render.checkpoint = {};
+  settings.render.cache.cache_out.clear();
+  settings.frames.range = FrameRange{frame, frame, 1};
   settings.render.camera = camera_of_frame(whole, frame);
   for (std::string& output : settings.outputs) output = name_of_frame(output, frame);
   settings.stats = name_of_frame(settings.stats, frame);
@@ -45,10 +50,9 @@ int RenderRun::render_frames(scene::SceneFile& file, scene::Scene& scene) {
   const Clock::time_point begin = Clock::now();
   renderer::Renderer renderer(scene, settings_.render, group_.ranks);
   note_integrator(renderer.integrator());
-  whole_.render = settings_.render;
+  if (whole_.render.choose_integrator) renderer::use_integrator(whole_.render, renderer.integrator());
   const std::size_t warnings_of_loading = report_.warnings.size();
-  make_cache(file, scene, renderer);
-  for (std::size_t i = 0; i < frames.size(); ++i) {
+  for (std::size_t i = begin_frames(file, scene, renderer, frames); i < frames.size(); ++i) {
     report_.warnings.resize(warnings_of_loading);
     progress_.begin_frame(frames[i], i, frames.size());
     int number = 0;
@@ -75,18 +79,42 @@ void RenderRun::show_frame(scene::SceneFile& file, scene::Scene& scene, renderer
   renderer.scene_moved(camera_of_frame(whole_, frame));
 }
 
-void RenderRun::make_cache(scene::SceneFile& file, scene::Scene& scene, renderer::Renderer& renderer) {
-  if (!renderer::uses_cache(renderer.integrator())) return;
-  const std::vector<int> frames = whole_.frames.range->numbers();
+std::size_t RenderRun::begin_frames(scene::SceneFile& file, scene::Scene& scene,
+                                    renderer::Renderer& renderer, const std::vector<int>& frames) {
+  const std::string& checkpoint = whole_.render.checkpoint.file;
+  const bool resumed = whole_.render.checkpoint.resume && std::filesystem::exists(checkpoint);
+  const std::string before = resumed ? checkpoint : whole_.render.cache.cache_in;
+  if (!before.empty()) return go_on(file, scene, renderer, frames, before, resumed);
   const std::size_t moments = std::min(frames.size(), kScouted);
-  if (whole_.render.cache.cache_in.empty() && moments > 1) {
+  if (renderer::uses_cache(renderer.integrator()) && moments > 1) {
     for (std::size_t k = 0; k < moments; ++k) {
       show_frame(file, scene, renderer, frames[k * (frames.size() - 1) / (moments - 1)]);
       renderer.scout();
     }
     show_frame(file, scene, renderer, frames.front());
   }
-  renderer.make_cache(whole_.frames.seconds(frames.front()));
+  renderer.begin_frames(whole_.frames.seconds(frames.front()));
+  return 0;
+}
+
+std::size_t RenderRun::go_on(scene::SceneFile& file, scene::Scene& scene, renderer::Renderer& renderer,
+                             const std::vector<int>& frames, const std::string& before, bool resumed) {
+  const renderer::FrameStatus status = renderer::read_frame_status(before);
+  if (!status.of_animation && scene.motion.any())
+    throw CacheFileError(fmt::format("{}: made of the file's nodes, expected a cache of --frames", before));
+  file.show(scene, status.layout_seconds);
+  renderer.scene_moved(camera_of_frame(whole_, status.frame.value_or(frames.front())));
+  renderer.begin_frames(status.layout_seconds, before);
+  if (status.exposure && !whole_.exposure) whole_.exposure = status.exposure;
+  if (!status.frame) return 0;
+  show_frame(file, scene, renderer, *status.frame);
+  renderer.restore_frame(before);
+  if (!resumed) return 0;
+  const auto last = std::find(frames.begin(), frames.end(), *status.frame);
+  if (last == frames.end())
+    throw CacheFileError(
+        fmt::format("{}: it ends with frame {}, expected one of --frames", before, *status.frame));
+  return static_cast<std::size_t>(last - frames.begin()) + 1;
 }
 
 int RenderRun::make_frame(scene::SceneFile& file, scene::Scene& scene, renderer::Renderer& renderer,
@@ -102,12 +130,22 @@ int RenderRun::make_frame(scene::SceneFile& file, scene::Scene& scene, renderer:
   if (const int number = signal(); number != 0) return number;
   end_picture(std::move(picture), renderer.statistics());
   if (!whole_.exposure) whole_.exposure = report_.exposure;  // it holds for all frames
+  if (group_.ranks.first()) write_state(renderer, frame);
   if (!group_.ranks.first()) return 0;
   if (!progress_.frame_done(frame, summary_json(settings_, report_)) && !settings_.quiet) {
     progress_.clear();
     print_status(frame_line(frame, settings_, report_));
   }
   return 0;
+}
+
+void RenderRun::write_state(const renderer::Renderer& renderer, int frame) {
+  const std::string& checkpoint = whole_.render.checkpoint.file;
+  const std::string& cache = whole_.render.cache.cache_out;
+  const bool last = frame == whole_.frames.range->numbers().back();
+  if (!checkpoint.empty()) renderer.write_frame(checkpoint, whole_.exposure);
+  if (!cache.empty() && (has_frame_place(cache) || last))
+    renderer.write_frame(name_of_frame(cache, frame), whole_.exposure);
 }
 
 void RenderRun::note_failed_frame(int frame) {

@@ -209,6 +209,8 @@ int RenderRun::stop_without_picture(int signal) {
 
 void RenderRun::note_loaded(const scene::Scene& scene) {
   for (const std::string& warning : scene.warnings) warn(warning);
+  if (settings_.load.time && scene.animations.empty() && settings_.frames.turntable == 0)
+    warn("the file has no animations: all times are alike");
   if (!settings_.verbose) return;
   progress_.clear();
   log_detail(fmt::format("{}: {} triangles, {} instances, {} punctual lights", settings_.scene,

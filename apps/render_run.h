@@ -32,7 +32,14 @@ class RenderRun {
   // Frames of an animation (render_frames.cpp).
   int render_frames(scene::SceneFile& file, scene::Scene& scene);
   void show_frame(scene::SceneFile& file, scene::Scene& scene, renderer::Renderer& renderer, int frame);
-  void make_cache(scene::SceneFile& file, scene::Scene& scene, renderer::Renderer& renderer);
+  /// Makes or reads the cache. Returns the index of the first frame to render.
+  std::size_t begin_frames(scene::SceneFile& file, scene::Scene& scene, renderer::Renderer& renderer,
+                           const std::vector<int>& frames);
+  /// Takes cache and light of `before`. Where the run is resumed, the frames up to that one are done.
+  std::size_t go_on(scene::SceneFile& file, scene::Scene& scene, renderer::Renderer& renderer,
+                    const std::vector<int>& frames, const std::string& before, bool resumed);
+  /// Writes --checkpoint and --cache-out.
+  void write_state(const renderer::Renderer& renderer, int frame);
   /// The number of a signal that ended it, or 0.
   int make_frame(scene::SceneFile& file, scene::Scene& scene, renderer::Renderer& renderer, int frame);
   int stop_frames(int signal, std::size_t done, std::size_t count);

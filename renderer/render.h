@@ -59,6 +59,18 @@ struct Series {
 using SeriesPicture =
     std::function<void(int point, const Picture& picture, const RenderStatistics& statistics)>;
 
+/// What a file of Renderer::write_frame() says of itself, or another cache file.
+struct FrameStatus {
+  std::optional<int> frame;        ///< the last one, whose light it has
+  double layout_seconds = 0.0;     ///< time of the scene that the cache belongs to
+  std::optional<float> exposure;   ///< of displayed frames, in stops
+  bool has_cache = false;
+  bool of_animation = false;       ///< else the scene is that of the file's nodes
+};
+
+/// Throws CacheFileError.
+FrameStatus read_frame_status(const std::filesystem::path& path);
+
 struct CacheReport;  // cache/cache_report.h
 class Ranks;         // distributed/ranks.h
 
@@ -84,16 +96,18 @@ class Renderer {
   /// The scene shows another time. Builds what moves. Throws as the constructor does.
   void scene_moved(const CameraOptions& camera);
   /// What the present view shows at the present time is to be part of the cache. Call it for some frames
-  /// before make_cache(); without a call the present one is taken.
+  /// before begin_frames(); without a call the present one is taken.
   void scout();
-  /// Makes the cache that the frames share, or reads `cache_in`, whose scene this must be: `seconds` is the
-  /// time that the scene shows. Throws the exceptions of render().
-  void make_cache(double seconds);
+  /// Begins the frames. Makes the cache that they share, or reads that of `file`, whose scene this must be
+  /// then: `seconds` is the time that the scene shows. Throws the exceptions of render().
+  void begin_frames(double seconds, const std::filesystem::path& file = {});
+  /// Takes the light of the last frame of `file`, whose scene and view these must be, for the next one.
+  void restore_frame(const std::filesystem::path& file);
   /// The present frame, whose number keys its random numbers. It depends on scene, options and the cache
   /// before it, which it trains further, as much as the light has changed. No checkpoint is read or written.
   Picture render_frame(int frame, const Callbacks& callbacks = {});
-  /// Throws OutputError. Nothing is written without a cache.
-  void write_cache(const std::filesystem::path& path) const;
+  /// Writes what the next frame needs of those before. Throws OutputError.
+  void write_frame(const std::filesystem::path& path, std::optional<float> exposure) const;
 
   /// The same scene, options and Embree ISA give the same bits for any number of threads and of ranks, unless
   /// a time limit ends it. Where there are several ranks, rank 0 gets the picture and writes the files, and

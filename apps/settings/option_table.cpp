@@ -117,16 +117,19 @@ void add_load_options(OptionGroup& group, scene::LoadOptions& load) {
 
 void add_frame_options(OptionGroup& group, FrameSettings& frames) {
   auto& [range, fps, turntable] = frames;
-  group.add(common(not_in_sweep(
-      {.name = "frames",
-       .unit = "A:B[:STEP]",
-       .help = "Frames to render, a file each: -o frame-%04d.exr (or #### or {frame}). The scene is loaded once, "
-               "the cache is kept from frame to frame, and earlier frames take noise off later ones",
-       .value = [&range = range]() -> OptionValue { return range ? OptionValue(text_of(*range)) : OptionValue(); },
-       .read = [&range = range](const std::string& text) { range = parse_frames("--frames", text); }})));
-  group.add(not_in_sweep(number("fps", fps, kFps, "N", "Frames of a second: frame n shows the time n / N")));
-  group.add(not_in_sweep(number("turntable", turntable, kTurns, "N",
-                                "The camera goes around what it looks at, once in N frames")));
+  const auto add = [&](Option option) {
+    const auto value = std::move(option.value);
+    option.value = [value, &range = range]() -> OptionValue { return range ? value() : OptionValue(); };
+    group.add(not_in_sweep(std::move(option)));
+  };
+  add(common({.name = "frames",
+              .unit = "A:B[:STEP]",
+              .help = "Frames to render, each to its own file: -o frame-%04d.exr, #### or {frame}",
+              .value = [&range = range]() -> OptionValue { return text_of(*range); },
+              .read = [&range = range](const std::string& text) { range = parse_frames("--frames", text); }}));
+  add(number("fps", fps, kFps, "N", "Frames of a second: frame n shows the time n / N"));
+  add(number("turntable", turntable, kTurns, "N",
+             "The camera goes around what it looks at, once in N frames; alone it renders these"));
 }
 
 Option preset_option(std::optional<CachePreset>& preset) {
@@ -215,8 +218,7 @@ std::vector<Option> option_table(RenderSettings& settings) {
     if (name == "integrator") table.push_back(preset_option(preset));
     if (name == "environment-scale") {
       add_load_options(view, load);
-      OptionGroup animation{table, "Animation"};
-      add_frame_options(animation, frames);
+      add_frame_options(view, frames);
     }
     if (name != "camera") continue;
     const auto& camera = render.camera;

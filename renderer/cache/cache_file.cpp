@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/file/content_digest.h"
@@ -34,10 +35,12 @@ NamedTexts texts_of(const CacheMeaning& meaning) {
 
 void write_cache_file(const std::filesystem::path& path, const CacheState& state, const neural::Model& model,
                       const neural::TrainingOptions& options, const CacheMeaning& meaning,
-                      const SceneFingerprint& scene) {
+                      const SceneFingerprint& scene, const OtherContent& other) {
   CacheContent content;
   fill_cache_content(content, model, options, state);
+  content.tensors.insert(content.tensors.end(), other.tensors.begin(), other.tensors.end());
   Metadata& metadata = content.model.metadata;
+  metadata.insert(other.metadata.begin(), other.metadata.end());
   metadata["format"] = kFormat;
   metadata["version"] = fmt::format("{}", kVersion);
   add_texts(metadata, kMeaning, texts_of(meaning));
@@ -74,8 +77,9 @@ void CacheFile::expect_model(const neural::Model& model, const neural::TrainingO
   neural::expect_model(file_, model, options);
 }
 
-CacheState CacheFile::read_state(const neural::Model& model, const neural::TrainingOptions& options) {
-  return read_cache_state(file_, model, options);
+CacheState CacheFile::read_state(const neural::Model& model, const neural::TrainingOptions& options,
+                                 std::set<std::string> others) {
+  return read_cache_state(file_, model, options, std::move(others));
 }
 
 }  // namespace gatelight::renderer

@@ -3,6 +3,9 @@
 // renderer/driver/README.md lists what must be equal.
 
 #include <filesystem>
+#include <set>
+#include <string>
+#include <vector>
 
 #include "neural/model/model_file.h"
 #include "renderer/cache/cache_state.h"
@@ -18,11 +21,17 @@ struct CacheMeaning {
   float ao_distance = 0.0f;  ///< metres, resolved
 };
 
+/// What a file has beside the cache: a frame's part (driver/frame_file.h).
+struct OtherContent {
+  std::vector<TensorView> tensors;
+  Metadata metadata;
+};
+
 /// Writes the file atomically and fsyncs it. Throws OutputError, CacheFileError, and
 /// BadConfiguration for a state that is not the model's.
 void write_cache_file(const std::filesystem::path& path, const CacheState& state, const neural::Model& model,
                       const neural::TrainingOptions& options, const CacheMeaning& meaning,
-                      const SceneFingerprint& scene);
+                      const SceneFingerprint& scene, const OtherContent& other = {});
 
 /// A file that is read in two stages, because the model is built from its setup. Its content is untrusted:
 /// all members throw CacheFileError, which names the file, the value and what was expected.
@@ -36,7 +45,10 @@ class CacheFile {
   void expect(const CacheMeaning& meaning, const SceneFingerprint& scene, std::size_t instances) const;
   /// Throws where the tensors are not of this model. Call it before memory for them is allocated.
   void expect_model(const neural::Model& model, const neural::TrainingOptions& options) const;
-  CacheState read_state(const neural::Model& model, const neural::TrainingOptions& options);
+  /// `others`: the names of tensors that the file may have beside the cache.
+  CacheState read_state(const neural::Model& model, const neural::TrainingOptions& options,
+                        std::set<std::string> others = {});
+  SafetensorsReader& reader() { return file_; }
 
  private:
   SafetensorsReader file_;

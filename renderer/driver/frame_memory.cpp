@@ -5,6 +5,7 @@
 
 #include "renderer/cache/cache_file.h"
 #include "renderer/cache/cache_model.h"
+#include "renderer/driver/frame_file.h"
 #include "renderer/settings/resolved_options.h"
 
 namespace gatelight::renderer {
@@ -16,15 +17,15 @@ constexpr double kChanged = 0.4;
 
 }  // namespace
 
-void FrameMemory::make_cache(const PreparedPicture& picture, DistributedTiles& tiles, double seconds) {
+void FrameMemory::begin(const PreparedPicture& picture, DistributedTiles& tiles, double seconds,
+                        const std::filesystem::path& file_name) {
   const RenderOptions& options = picture.options;
+  fingerprint = picture.fingerprint();
+  layout_seconds = seconds;
   if (!uses_cache(options.integrator)) return;
-  const std::string& file_name = options.cache.cache_in;
   const auto pixels = static_cast<std::uint64_t>(picture.region.width()) *
                       static_cast<std::uint64_t>(picture.region.height());
   fresh_steps = options.cache.train_steps.value_or(choose_training_steps(options, pixels));
-  fingerprint = picture.fingerprint();
-  layout_seconds = seconds;
   const neural::TrainingOptions learning = training_options(options);
   picture.arena.execute([&] {
     const auto make = [&](const CacheSetup* setup, const std::function<void(const neural::Model&)>& expect) {
@@ -35,7 +36,7 @@ void FrameMemory::make_cache(const PreparedPicture& picture, DistributedTiles& t
       CacheFile file(file_name);
       file.expect(picture.cache_meaning(), fingerprint, picture.scene.instances.size());
       make(&file.setup(), [&](const neural::Model& model) { file.expect_model(model, learning); });
-      cache->import_state(file.read_state(cache->model(), learning));
+      cache->import_state(file.read_state(cache->model(), learning, frame_tensors()));
     } else if (scouted) {
       const ScoutReport report = scouting.report(picture.scene, options);
       make(&report.setup, nullptr);
@@ -43,6 +44,21 @@ void FrameMemory::make_cache(const PreparedPicture& picture, DistributedTiles& t
       make(nullptr, nullptr);
     }
   });
+}
+
+void FrameMemory::restore(const PreparedPicture& picture, const std::filesystem::path& path) {
+  FrameFile file(path);
+  FrameLight light = file.read_light(fingerprint, picture.region.width(), picture.region.height());
+  last_frame = file.status().frame;
+  if (light.empty()) return;
+  VisiblePoints points = picture.arena.execute(
+      [&] { return trace_visible_points(*picture.world, picture.camera, picture.region, nullptr); });
+  history = std::make_unique<History>(History{.view = {Moment(picture.scene), picture.camera},
+                                              .rect = picture.region,
+                                              .points = std::move(points.now),
+                                              .color = std::move(light.color),
+                                              .albedo = std::move(light.albedo),
+                                              .samples = std::move(light.samples)});
 }
 
 Reuse FrameMemory::reuse(const PreparedPicture& picture, const Film& film) {
@@ -72,10 +88,17 @@ void FrameMemory::keep(const DenoisedRows& denoised, const Reuse& reuse) {
                                               .samples = reuse.samples});
 }
 
-void FrameMemory::write_cache(const PreparedPicture& picture, const std::filesystem::path& path) const {
-  if (!cache) return;
-  write_cache_file(path, cache->export_state(), cache->model(), cache->learning(),
-                   picture.cache_meaning(), fingerprint);
+void FrameMemory::write(const PreparedPicture& picture, const std::filesystem::path& path,
+                        std::optional<float> exposure) const {
+  const FrameStatus status{.frame = last_frame, .layout_seconds = layout_seconds, .exposure = exposure};
+  FrameLight light;
+  if (history) {
+    light = {history->rect.width(), history->rect.height(), history->color, history->albedo,
+             history->samples};
+  }
+  if (!cache) return write_frame_file(path, status, light, fingerprint);
+  write_cache_file(path, cache->export_state(), cache->model(), cache->learning(), picture.cache_meaning(),
+                   fingerprint, frame_content(status, light));
 }
 
 int steps_after_change(double change, int fresh_steps) {

@@ -1,7 +1,9 @@
 #pragma once
 // What the frames of an animation hand on to each other.
 
+#include <filesystem>
 #include <memory>
+#include <optional>
 
 #include "renderer/cache/cache_session.h"
 #include "renderer/cache/scouting.h"
@@ -15,6 +17,7 @@ namespace gatelight::renderer {
 struct FrameMemory {
   Scouting scouting;
   bool scouted = false;
+  std::optional<int> last_frame;
   int fresh_steps = 0;  ///< training steps of a cache that knows nothing
   double layout_seconds = 0.0;
   SceneFingerprint fingerprint;         ///< of the scene in which the cache was laid out
@@ -26,10 +29,14 @@ struct FrameMemory {
   Reuse reuse(const PreparedPicture& picture, const Film& film);
   /// Keeps the frame of the last reuse() for the next one.
   void keep(const DenoisedRows& denoised, const Reuse& reuse);
-  /// Makes the cache by what was scouted, or reads it from a file.
-  void make_cache(const PreparedPicture& picture, DistributedTiles& tiles, double seconds);
-  /// Throws OutputError.
-  void write_cache(const PreparedPicture& picture, const std::filesystem::path& path) const;
+  /// Renderer::begin_frames().
+  void begin(const PreparedPicture& picture, DistributedTiles& tiles, double seconds,
+             const std::filesystem::path& file);
+  /// Renderer::restore_frame().
+  void restore(const PreparedPicture& picture, const std::filesystem::path& file);
+  /// Renderer::write_frame().
+  void write(const PreparedPicture& picture, const std::filesystem::path& path,
+             std::optional<float> exposure) const;
 
  private:
   std::unique_ptr<EarlierView> next_view_;

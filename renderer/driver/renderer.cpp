@@ -1,6 +1,7 @@
 #include "base/platform/flush_denormals.h"
 #include "renderer/cache/cache_report.h"
 #include "renderer/cache/cache_session.h"
+#include "renderer/driver/frame_file.h"
 #include "renderer/driver/frame_memory.h"
 #include "renderer/driver/picture_run.h"
 #include "renderer/driver/render_series.h"
@@ -50,21 +51,33 @@ void Renderer::scout() {
   self.memory.scouted = true;
 }
 
-void Renderer::make_cache(double seconds) {
+void Renderer::begin_frames(double seconds, const std::filesystem::path& file) {
   const FlushDenormals flush;
   Implementation& self = *implementation_;
-  self.memory.make_cache(self.picture, self.tiles, seconds);
+  self.memory.begin(self.picture, self.tiles, seconds, file);
+}
+
+void Renderer::restore_frame(const std::filesystem::path& file) {
+  const FlushDenormals flush;
+  Implementation& self = *implementation_;
+  self.memory.restore(self.picture, file);
 }
 
 Picture Renderer::render_frame(int frame, const Callbacks& callbacks) {
   const FlushDenormals flush;
   Implementation& self = *implementation_;
   self.picture.begin_frame(frame);
-  return render_picture({self.picture, self.tiles, callbacks}, self.statistics, &self.memory);
+  Picture picture = render_picture({self.picture, self.tiles, callbacks}, self.statistics, &self.memory);
+  self.memory.last_frame = frame;
+  return picture;
 }
 
-void Renderer::write_cache(const std::filesystem::path& path) const {
-  implementation_->memory.write_cache(implementation_->picture, path);
+void Renderer::write_frame(const std::filesystem::path& path, std::optional<float> exposure) const {
+  implementation_->memory.write(implementation_->picture, path, exposure);
+}
+
+FrameStatus read_frame_status(const std::filesystem::path& path) {
+  return FrameFile(path).status();
 }
 
 Picture Renderer::render(const Callbacks& callbacks) {

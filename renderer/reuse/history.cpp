@@ -19,6 +19,8 @@ constexpr float kDarkest = 0.02f;
 /// along the surface this many.
 constexpr float kMostAcross = 1.0f, kMostAlong = 3.0f;
 constexpr float kLeastCosine = 0.9f;
+/// Share of what an edge takes over: the earlier picture mixes its surfaces in other parts.
+constexpr float kAtEdges = 0.25f;
 /// Pixels around, in each direction, whose light is compared; its difference is allowed to be so many standard
 /// errors and this share of the light, and twice of both is too much.
 constexpr int kAround = 4;
@@ -41,6 +43,12 @@ bool same_surface(const VisiblePoint& there, const VisiblePoint& now, const Earl
   const float across = std::abs(apart.dot(earlier.normal));
   // A pixel is longer on a surface that is seen from the side.
   return across <= kMostAcross * width && apart.squaredNorm() <= 400.0f * kMostAlong * kMostAlong * width * width;
+}
+
+/// How far the light still holds that depends on the view.
+float same_gloss(const VisiblePoint& now, const EarlierPoint& earlier) {
+  const float turned = (now.reflected - earlier.reflected).norm() / now.lobe;
+  return 1.0f - now.glossy * (1.0f - std::exp(-turned * turned));
 }
 
 /// What a pixel may take over.
@@ -107,9 +115,22 @@ class Carrier {
     }
     if (!(weights > 0.01f)) return {};
     for (int c = 0; c < 3; ++c) sum.color[c] *= factor(albedo_[3 * i + static_cast<std::size_t>(c)]) / weights;
-    // Few of the four are of the surface: the others are of other surfaces.
-    sum.samples = std::min(sum.samples, kMostEarlier * samples(i));
+    sum.samples = std::min(sum.samples, kMostEarlier * samples(i)) * weights * same_gloss(now, earlier);
+    if (is_edge(i)) sum.samples *= kAtEdges;
     return sum;
+  }
+
+  /// Whether the pixel shows parts of several surfaces.
+  bool is_edge(std::size_t i) const {
+    const auto width = static_cast<std::size_t>(rect_.width());
+    const std::size_t x = i % width;
+    const auto differs = [&](std::size_t j) {
+      const VisiblePoint &a = points_.now[i], &b = points_.now[j];
+      if (a.hit.instance != b.hit.instance || a.normal.dot(b.normal) < kLeastCosine) return true;
+      return std::abs((a.position - b.position).dot(a.normal)) > 2.0f * a.width;
+    };
+    return (x > 0 && differs(i - 1)) || (x + 1 < width && differs(i + 1)) || (i >= width && differs(i - width)) ||
+           (i + width < points_.now.size() && differs(i + width));
   }
 
   /// Takes less over where the light around has changed by more than its noise.

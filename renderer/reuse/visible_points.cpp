@@ -33,6 +33,20 @@ std::optional<Plane> plane_of(const std::array<Vec3, 3>& corners, const Hit& hit
   return Plane{(1.0f - hit.u - hit.v) * corners[0] + hit.u * corners[1] + hit.v * corners[2], normal};
 }
 
+Vec3 mirrored(const Vec3& direction, const Vec3& normal) {
+  return direction - 2.0f * normal.dot(direction) * normal;
+}
+
+/// How much of the light depends on the view, roughly: that of metals, coats and smooth dielectrics.
+void set_gloss(const SurfaceMaterial& m, VisiblePoint& point) {
+  constexpr float kOfDielectric = 0.5f, kSmooth = 0.35f, kOfLobe = 0.7f;
+  const bool coated = m.clearcoat > 0.1f;
+  const float roughness = coated ? std::min(m.roughness, m.clearcoat_roughness) : m.roughness;
+  const float dielectric = coated || roughness < kSmooth ? kOfDielectric : 0.0f;
+  point.glossy = std::max({m.metallic, m.transmission, dielectric});
+  point.lobe = std::max(kOfLobe * roughness * roughness, 0.01f);
+}
+
 /// The walk of one pixel's ray.
 struct Walker {
   std::size_t pixel;
@@ -61,7 +75,9 @@ class Tracer {
     if (!plane) return false;
     VisiblePoint& point = points_.now[walker.pixel];
     const bool turned = plane->normal.dot(direction) > 0.0f;
-    point = {hit, plane->point, turned ? Vec3(-plane->normal) : plane->normal, width};
+    const Vec3 normal = turned ? Vec3(-plane->normal) : plane->normal;
+    point = {hit, plane->point, normal, width, mirrored(direction, normal)};
+    set_gloss(m, point);
     if (earlier_ && walker.had_image) note_earlier(walker, hit, turned);
     return false;
   }
@@ -96,7 +112,11 @@ class Tracer {
     if (!plane) return;
     const std::optional<Vec2> pixel = earlier_->camera.pixel_of(walker.image * plane->point);
     if (!pixel) return;
-    points_.earlier[walker.pixel] = EarlierPoint{*pixel, plane->point, turned ? Vec3(-plane->normal) : plane->normal};
+    const Vec3 normal = turned ? Vec3(-plane->normal) : plane->normal;
+    // The way of the ray behind the mirrors.
+    const Vec3 seen = earlier_->camera.direction_to(walker.image * plane->point);
+    const Vec3 direction = walker.image.linear().transpose() * seen;
+    points_.earlier[walker.pixel] = EarlierPoint{*pixel, plane->point, normal, mirrored(direction, normal)};
   }
 
   const World& world_;

@@ -16,6 +16,9 @@ struct VisiblePoint {
   Vec3 position = Vec3::Zero();  ///< world
   Vec3 normal = Vec3::Zero();    ///< unit, of the triangle, on the side of the viewer
   float width = 0.0f;            ///< of a pixel there, metres
+  Vec3 reflected = Vec3::Zero();  ///< unit: the mirror direction of the view
+  float glossy = 0.0f;            ///< share of the light that comes from around it
+  float lobe = 1.0f;              ///< radians: the width of that part
 };
 
 /// The point of the same surface at an earlier time.
@@ -23,6 +26,7 @@ struct EarlierPoint {
   Vec2 pixel = Vec2::Zero();     ///< its place in the earlier picture, in pixels from the top left corner
   Vec3 position = Vec3::Zero();  ///< world
   Vec3 normal = Vec3::Zero();    ///< unit
+  Vec3 reflected = Vec3::Zero();  ///< unit
 };
 
 /// An earlier time and its view.

@@ -88,7 +88,6 @@ std::vector<std::size_t> choose_animations(const json& root, const LoadOptions& 
   if (!options.animation.empty()) chosen.push_back(find_animation(root, options.animation, file));
   if (!options.time) return {};
   const json& animations = list_of(root, "animations");
-  if (animations.empty()) warnings.add("the file has no animations; `time` changes nothing");
   return chosen.empty() ? without_rivals(animations, warnings) : chosen;
 }
 
