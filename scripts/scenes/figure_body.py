@@ -1,5 +1,6 @@
 """The body of the figure: cones with round ends, blended, as a mesh with the weights of the joints."""
 
+import functools
 import math
 
 from figure_motion import INDEX, JOINTS, SIDES, along_arm
@@ -113,6 +114,7 @@ def surface_point(x, y):
     return x, y, z
 
 
+@functools.cache
 def body():
     """A vertex for each cell of the grid that the surface crosses (surface nets), moved onto the surface."""
     nx, ny, nz = SIZE

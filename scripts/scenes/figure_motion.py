@@ -175,7 +175,7 @@ def through(keys, t):
 PITCH = [(0.0, -16.0), (0.12, 0.0), (0.36, 0.0), (STANCE, 38.0), (0.8, 8.0), (1.0, -16.0)]
 
 
-def step(phase):
+def step(phase, stride):
     """Ankle (y, z), pitch of the foot and of its toes, a time after the heel touches the ground."""
     pitch = through(PITCH, phase)
     ankle = (REST["left foot"][1], REST["left foot"][2])
@@ -184,14 +184,14 @@ def step(phase):
     dy, dz = ankle[0] - pivot[0], ankle[1] - pivot[1]
     y, z = pivot[0] + c * dy - s * dz, pivot[1] + s * dy + c * dz
     if phase < STANCE:
-        return y, z + STRIDE * (1.0 - 2.0 * phase / STANCE), pitch, min(pitch, 0.0)
+        return y, z + stride * (1.0 - 2.0 * phase / STANCE), pitch, min(pitch, 0.0)
     swing = (phase - STANCE) / (1.0 - STANCE)
     lift = 0.05 * math.sin(math.pi * swing) ** 2
-    return y + lift, z - STRIDE * (1.0 - 2.0 * smooth_step(swing)), pitch, min(pitch, pitch * smooth_step(swing))
+    return y + lift, z - stride * (1.0 - 2.0 * smooth_step(swing)), pitch, min(pitch, pitch * smooth_step(swing))
 
 
-def walking(t):
-    """The pose at a time in [0, 1], of a loop of two steps on the spot."""
+def walking(t, stride=STRIDE):
+    """The pose at a time in [0, 1], of a loop of two steps on the spot. The ground runs by 2 stride / STANCE in a loop."""
     swing = math.sin(2.0 * math.pi * t + 0.5 * math.pi)  # 1 where the left foot is in front
     pose = Pose((0.012 * math.sin(2.0 * math.pi * t), 0.906 - 0.012 * math.cos(4.0 * math.pi * t), 0.0), about("y", -5.0 * swing))
     pose.local("spine", about("y", spine_yaw(t)))
@@ -199,7 +199,7 @@ def walking(t):
     pose.local("neck", about("x", -1.0))
     pose.local("head", about("x", -2.0))
     for side, sign in SIDES:
-        y, z, pitch, toes = step((t + (0.0 if sign > 0 else 0.5)) % 1.0)
+        y, z, pitch, toes = step((t + (0.0 if sign > 0 else 0.5)) % 1.0, stride)
         pose.leg(side, (sign * 0.095, y, z), sign * 4.0, pitch, toes)
         forward = -sign * swing
         upper = math.radians(24.0 * forward - 2.0)

@@ -50,6 +50,7 @@ class Glb:
         }
         self.binary = bytearray()
         self.geometries = {}
+        self.used = set()
 
     def append(self, kind, item):
         self.doc.setdefault(kind, []).append(item)
@@ -172,12 +173,14 @@ class Glb:
         return self.node(name, self.mesh(name, (geometry, material)), **where)
 
     def camera(self, name, eye, target, yfov_degrees, aspect=16.0 / 9.0, znear=0.01):
-        """No aspect ratio, with aspect=None, leaves it to the picture."""
+        return self.node(name, camera=self.perspective(name, yfov_degrees, aspect, znear), matrix=look_at(eye, target))
+
+    def perspective(self, name, yfov_degrees, aspect=None, znear=0.01):
+        """The index of a camera. No aspect ratio leaves it to the picture."""
         perspective = {"yfov": round_float(math.radians(yfov_degrees)), "znear": znear}
         if aspect:
             perspective["aspectRatio"] = round_float(aspect)
-        camera = self.append("cameras", {"name": name, "type": "perspective", "perspective": perspective})
-        return self.node(name, camera=camera, matrix=look_at(eye, target))
+        return self.append("cameras", {"name": name, "type": "perspective", "perspective": perspective})
 
     def light(self, name, kind, color, intensity, eye, target, **more):
         """A punctual light at `eye` that shines towards `target`."""
@@ -188,13 +191,17 @@ class Glb:
 
     # The file
 
+    def use(self, extension):
+        """Names an extension that readers may ignore, where write() does not find it."""
+        self.used.add(extension)
+
     def require(self, extension):
         required = self.doc.setdefault("extensionsRequired", [])
         if extension not in required:
             required.append(extension)
 
     def write(self, path):
-        used = set(self.doc.get("extensionsRequired", [])) | set(self.doc.get("extensions", {}))
+        used = self.used | set(self.doc.get("extensionsRequired", [])) | set(self.doc.get("extensions", {}))
         for item in self.doc.get("materials", []):
             used |= set(item.get("extensions", {}))
             if "KHR_texture_transform" in json.dumps(item):

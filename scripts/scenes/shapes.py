@@ -98,6 +98,16 @@ def cells(columns, rows, first=0):
             yield a, a + 1, a + columns + 2, a + columns + 1
 
 
+def part_of_grid(columns, rows, keep):
+    """Of a grid only the cells (i, j) that `keep` names: the vertices that these need, and triangles of their places in
+    this list."""
+    chosen = [corners for k, corners in enumerate(cells(columns, rows)) if keep(k % columns, k // columns)]
+    used = sorted({k for corners in chosen for k in corners})
+    place = {k: n for n, k in enumerate(used)}
+    return used, [triangle for a, b, c, d in ([place[k] for k in corners] for corners in chosen)
+                  for triangle in ((a, b, c), (a, c, d))]
+
+
 def surface(columns, rows, function, wrap=False):
     """Grid over u, v in [0, 1]: `function(u, v)` gives the position. u to the right and v up see the front.
     Smooth normals; uvs are (u, 1 - v). `wrap` says that u = 0 and u = 1 meet (the seam is bridged either way)."""
