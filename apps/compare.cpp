@@ -7,9 +7,9 @@
 
 #include "apps/reports/compare_report.h"
 #include "apps/seeds.h"
-#include "apps/settings/frame_range.h"
 #include "apps/settings/file_names.h"
 #include "apps/settings/flags.h"
+#include "apps/settings/frame_range.h"
 #include "apps/settings/option_table.h"
 #include "apps/settings/picture_output.h"
 #include "apps/subcommand.h"

@@ -12,9 +12,9 @@
 
 #include "apps/reports/overflow_warning.h"
 #include "apps/reports/recipe.h"
-#include "apps/settings/frame_range.h"
 #include "apps/settings/file_names.h"
 #include "apps/settings/flags.h"
+#include "apps/settings/frame_range.h"
 #include "apps/settings/option_table.h"
 #include "apps/settings/picture_options.h"
 #include "apps/settings/picture_output.h"

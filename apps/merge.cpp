@@ -8,8 +8,8 @@
 #include <memory>
 
 #include "apps/seeds.h"
-#include "apps/settings/frame_range.h"
 #include "apps/settings/flags.h"
+#include "apps/settings/frame_range.h"
 #include "apps/settings/option_table.h"
 #include "apps/settings/picture_output.h"
 #include "apps/subcommand.h"

@@ -79,8 +79,8 @@ void RenderRun::show_frame(scene::SceneFile& file, scene::Scene& scene, renderer
   renderer.scene_moved(camera_of_frame(whole_, frame));
 }
 
-std::size_t RenderRun::begin_frames(scene::SceneFile& file, scene::Scene& scene,
-                                    renderer::Renderer& renderer, const std::vector<int>& frames) {
+std::size_t RenderRun::begin_frames(scene::SceneFile& file, scene::Scene& scene, renderer::Renderer& renderer,
+                                    const std::vector<int>& frames) {
   const std::string& checkpoint = whole_.render.checkpoint.file;
   const bool resumed = whole_.render.checkpoint.resume && std::filesystem::exists(checkpoint);
   const std::string before = resumed ? checkpoint : whole_.render.cache.cache_in;
@@ -155,10 +155,10 @@ void RenderRun::note_failed_frame(int frame) {
 
 int RenderRun::stop_frames(int signal, std::size_t done, std::size_t count) {
   progress_.clear();
-  print_notice(fmt::format("stopped by signal {} after {} of {} frames; the one that was under way is lost{}",
-                           signal, done, count,
-                           whole_.render.checkpoint.file.empty() ? "" : ", --resume goes on with it"),
-               kSignalBase + signal);
+  print_notice(
+      fmt::format("stopped by signal {} after {} of {} frames; the one that was under way is lost{}", signal,
+                  done, count, whole_.render.checkpoint.file.empty() ? "" : ", --resume goes on with it"),
+      kSignalBase + signal);
   return kSignalBase + signal;
 }
 

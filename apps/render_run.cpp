@@ -121,7 +121,7 @@ renderer::Callbacks RenderRun::make_callbacks(const renderer::Renderer& renderer
 }
 
 void RenderRun::write_pictures(renderer::Picture picture, const renderer::RenderStatistics& statistics,
-                    const std::vector<std::string>& outputs) {
+                               const std::vector<std::string>& outputs) {
   renderer::ImageWriteOptions image = settings_.image;
   const float suitable = renderer::auto_exposure(picture);
   if (!settings_.exposure) image.display.exposure = suitable;
@@ -140,7 +140,7 @@ void RenderRun::write_pictures(renderer::Picture picture, const renderer::Render
 }
 
 void RenderRun::warn_of_glare(const renderer::Picture& picture, const renderer::DisplayOptions& display,
-                   float suitable) {
+                              float suitable) {
   if (settings_.given.contains("--exposure") || glare_reported_ || !shows_on_a_screen(settings_.outputs))
     return;
   const std::string text = glare_warning(picture, display, suitable, bright_lights_);
@@ -149,7 +149,8 @@ void RenderRun::warn_of_glare(const renderer::Picture& picture, const renderer::
   warn(text);
 }
 
-void RenderRun::write_snapshot(const renderer::Picture& picture, const renderer::RenderStatistics& statistics) {
+void RenderRun::write_snapshot(const renderer::Picture& picture,
+                               const renderer::RenderStatistics& statistics) {
   try {
     write_pictures(picture, statistics, files_of(settings_.outputs));
     progress_.clear();
@@ -201,8 +202,8 @@ int RenderRun::signal() const {
 
 int RenderRun::stop_without_picture(int signal) {
   progress_.clear();
-  print_notice(fmt::format("stopped by signal {} before the first pass of '{}'; nothing was written",
-                           signal, settings_.scene),
+  print_notice(fmt::format("stopped by signal {} before the first pass of '{}'; nothing was written", signal,
+                           settings_.scene),
                kSignalBase + signal);
   return kSignalBase + signal;
 }

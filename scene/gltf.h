@@ -36,7 +36,7 @@ struct LoadOptions {
       true;                     ///< an unreadable texture is an error; else white replaces it, with a warning
   bool allow_external = false;  ///< buffers and images may lie outside the scene file's folder
   std::vector<std::string> ignore_required;  ///< extensions that the file may require although unsupported
-  bool show_hidden = false;  ///< show the nodes that KHR_node_visibility hides
+  bool show_hidden = false;                  ///< show the nodes that KHR_node_visibility hides
   BackFaces back_faces = BackFaces::show;
   std::vector<LightAdjustment> lights;  ///< applied to the loaded scene, in this order
   std::vector<LightProfile> profiles;   ///< likewise

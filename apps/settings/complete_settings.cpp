@@ -84,8 +84,7 @@ void complete_frames(RenderSettings& settings) {
       throw UsageError("--fps: there are no frames, expected --frames or --turntable with it");
     return;
   }
-  if (settings.load.time)
-    throw UsageError("--time and --frames exclude each other, expected one of them");
+  if (settings.load.time) throw UsageError("--time and --frames exclude each other, expected one of them");
   settings.load.time = frames.seconds(frames.range->first);
   if (settings.render.camera.name == "all" && !settings.render.camera.look_at)
     throw UsageError("--camera: 'all' does not go with --frames, expected one camera");
@@ -258,7 +257,8 @@ void complete_settings(RenderSettings& settings) {
     throw UsageError("--sky and --environment exclude each other, expected one of them");
   complete_frames(settings);
   if (!settings.load.animation.empty() && !settings.load.time)
-    throw UsageError("--animation: without a moment nothing is animated, expected --time or --frames with it");
+    throw UsageError(
+        "--animation: without a moment nothing is animated, expected --time or --frames with it");
   check_picture(settings.render);
   resolve_integrator(settings);
   check_light_groups(settings.render);

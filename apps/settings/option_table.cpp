@@ -122,11 +122,12 @@ void add_frame_options(OptionGroup& group, FrameSettings& frames) {
     option.value = [value, &range = range]() -> OptionValue { return range ? value() : OptionValue(); };
     group.add(not_in_sweep(std::move(option)));
   };
-  add(common({.name = "frames",
-              .unit = "A:B[:STEP]",
-              .help = "Frames to render, each to its own file: -o frame-%04d.exr, #### or {frame}",
-              .value = [&range = range]() -> OptionValue { return text_of(*range); },
-              .read = [&range = range](const std::string& text) { range = parse_frames("--frames", text); }}));
+  add(common(
+      {.name = "frames",
+       .unit = "A:B[:STEP]",
+       .help = "Frames to render, each to its own file: -o frame-%04d.exr, #### or {frame}",
+       .value = [&range = range]() -> OptionValue { return text_of(*range); },
+       .read = [&range = range](const std::string& text) { range = parse_frames("--frames", text); }}));
   add(number("fps", fps, kFps, "N", "Frames of a second: frame n shows the time n / N"));
   add(number("turntable", turntable, kTurns, "N",
              "The camera goes around what it looks at, once in N frames; alone it renders these"));
@@ -204,8 +205,8 @@ Option positional(const char* name, std::string& member, const char* help) {
 
 std::vector<Option> option_table(RenderSettings& settings) {
   // --config belongs to all subcommands.
-  auto& [scene, outputs, render, load, frames, image, exposure, eye, target, up, view_file, config, stats, progress,
-         reproducible, quiet, verbose, preset, given] = settings;
+  auto& [scene, outputs, render, load, frames, image, exposure, eye, target, up, view_file, config, stats,
+         progress, reproducible, quiet, verbose, preset, given] = settings;
   std::vector<Option> table;
   table.push_back(positional("SCENE", scene, "Scene, .gltf or .glb"));
   OptionGroup output{table, "Output"};

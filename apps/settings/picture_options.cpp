@@ -181,10 +181,11 @@ void add_denoise_options(OptionGroup& picture, DenoiseOptions& options) {
                      "samples, and scale by the pixel filter: better edges of bright windows, worse fine "
                      "textures, four times the denoiser's time"),
               {kDenoiser});
-  picture.add(not_in_sweep(choice("temporal", temporal, kOnOff,
-                                  "Frames take over samples of earlier frames where they show the same surface "
-                                  "in the same light, before the denoiser")),
-              {kDenoiser});
+  picture.add(
+      not_in_sweep(choice("temporal", temporal, kOnOff,
+                          "Frames take over samples of earlier frames where they show the same surface "
+                          "in the same light, before the denoiser")),
+      {kDenoiser});
   picture.add(in_recipe(any_word("oidn", library, "FILE|FOLDER",
                                  "Open Image Denoise 2, libOpenImageDenoise.so.2 (default: GATELIGHT_OIDN "
                                  "of the environment, else where scripts/setup or the system have it)"),

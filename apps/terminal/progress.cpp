@@ -143,7 +143,8 @@ void ProgressReporter::show_json(const renderer::Progress& progress, const Rates
 
 void ProgressReporter::show_bar(const renderer::Progress& progress, const Rates& rates) {
   std::string name = name_of(kPhases, progress.phase);
-  if (frame_) name = fmt::format("frame {} ({} of {}) {}", frame_->number, frame_->done + 1, frame_->count, name);
+  if (frame_)
+    name = fmt::format("frame {} ({} of {}) {}", frame_->number, frame_->done + 1, frame_->count, name);
   const std::string numbers = fmt::format(" {:5.1f} %{}  ETA {}", 100.0 * progress.fraction,
                                           measures(progress, rates.samples_per_second),
                                           rates.eta_seconds < 0.0 ? "?" : format_duration(rates.eta_seconds));
@@ -173,8 +174,8 @@ bool ProgressReporter::frame_done(int frame, const nlohmann::ordered_json& summa
 
 double ProgressReporter::eta_of_frames() const {
   if (frame_->done == 0) return -1.0;
-  const double each = std::chrono::duration<double>(frame_->begin - first_frame_).count() /
-                      static_cast<double>(frame_->done);
+  const double each =
+      std::chrono::duration<double>(frame_->begin - first_frame_).count() / static_cast<double>(frame_->done);
   const double left = each * static_cast<double>(frame_->count - frame_->done);
   return std::max(left - seconds_since(frame_->begin), 0.0);
 }

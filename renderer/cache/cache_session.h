@@ -24,8 +24,8 @@ class CacheSession {
                const RenderOptions& options, const CacheSetup* setup = nullptr,
                const std::function<void(const neural::Model&)>& expect_model = {},
                const RankTiles* ranks = nullptr);
-  /// Goes on with the cache of another view or time of the same scene, which it takes over. The samples of the
-  /// picture begin anew, and the guard forgets what it has seen.
+  /// Goes on with the cache of another view or time of the same scene, which it takes over. The samples of
+  /// the picture begin anew, and the guard forgets what it has seen.
   CacheSession(const World& world, const Camera& camera, const PixelRect& region,
                const RenderOptions& options, CacheSession&& earlier, const RankTiles* ranks = nullptr);
   ~CacheSession();

@@ -5,12 +5,15 @@
 #include <cmath>
 #include <cstdint>
 #include <map>
+#include <numeric>
+#include <vector>
 
 namespace gatelight::renderer {
 namespace {
 
-/// Cells along the scene's diagonal.
-constexpr float kCells = 16.0f;
+/// Cells along the scene's diagonal: small ones see changes nearby, large ones have the records to be
+/// certain.
+constexpr std::array<float, 2> kCells = {16.0f, 4.0f};
 /// Fewer records of a cell say nothing: noise of light has a long tail, which few records seldom meet.
 constexpr double kLeastRecords = 64.0;
 /// A cell has changed where its mean error is this much of its light, and this many standard errors.
@@ -44,7 +47,8 @@ struct Cell {
 std::uint64_t cell_of(const Vec3& position, const Box& bounds, float size) {
   const Vec3 at = (position - bounds.min()) / size;
   std::uint64_t key = 0;
-  for (const float x : at) key = key << 21 | (static_cast<std::uint64_t>(std::llround(std::floor(x))) & 0x1fffff);
+  for (const float x : at)
+    key = key << 21 | (static_cast<std::uint64_t>(std::llround(std::floor(x))) & 0x1fffff);
   return key;
 }
 
@@ -67,20 +71,24 @@ double light_change(const scene::Scene& scene, const RecordBatch& group, std::sp
                     std::size_t outputs) {
   const std::size_t records = group.records.size();
   if (records == 0 || scene.bounds.isEmpty()) return 0.0;
-  const float size = std::max(scene.bounds.diagonal().norm() / kCells, 1e-30f);
-  std::map<std::uint64_t, Cell> cells;
-  for (std::size_t i = 0; i < records; ++i) {
-    const double target = mean_of(&group.targets[outputs * i], outputs);
-    const double answer = mean_of(&answers[outputs * i], outputs);
-    if (!std::isfinite(target) || !std::isfinite(answer)) continue;
-    cells[cell_of(position_of(scene, group.records, i), scene.bounds, size)].add(answer, target);
+  std::vector<double> changes(records, 0.0);
+  for (const float cells_across : kCells) {
+    const float size = std::max(scene.bounds.diagonal().norm() / cells_across, 1e-30f);
+    std::map<std::uint64_t, Cell> cells;
+    std::vector<const Cell*> cell_of_record(records, nullptr);
+    for (std::size_t i = 0; i < records; ++i) {
+      const double target = mean_of(&group.targets[outputs * i], outputs);
+      const double answer = mean_of(&answers[outputs * i], outputs);
+      if (!std::isfinite(target) || !std::isfinite(answer)) continue;
+      Cell& cell = cells[cell_of(position_of(scene, group.records, i), scene.bounds, size)];
+      cell.add(answer, target);
+      cell_of_record[i] = &cell;
+    }
+    for (std::size_t i = 0; i < records; ++i) {
+      if (cell_of_record[i]) changes[i] = std::max(changes[i], cell_of_record[i]->change());
+    }
   }
-  double changed = 0.0, all = 0.0;
-  for (const auto& [key, cell] : cells) {
-    changed += cell.records * cell.change();
-    all += cell.records;
-  }
-  return all > 0.0 ? changed / all : 0.0;
+  return std::accumulate(changes.begin(), changes.end(), 0.0) / static_cast<double>(records);
 }
 
 }  // namespace gatelight::renderer

@@ -207,7 +207,9 @@ class Finisher {
   }
 
   /// Whether the film's samples are all of the picture.
-  bool estimates_error() const { return film_.samples_per_pixel() >= kSamplesForError && f_.color == nullptr; }
+  bool estimates_error() const {
+    return film_.samples_per_pixel() >= kSamplesForError && f_.color == nullptr;
+  }
 
   /// The samples, with an alpha where the background is separate.
   NoisyPicture samples() const {

@@ -103,7 +103,8 @@ FrameLight FrameFile::read_light(const SceneFingerprint& scene, int width, int h
     file_.read(name, TensorType::f32, shape, std::as_writable_bytes(std::span(values)));
     for (std::size_t i = 0; i < values.size(); ++i) {
       if (!std::isfinite(values[i]))
-        file_.fail(fmt::format("tensor '{}': element {} is {}, expected a finite number", name, i, values[i]));
+        file_.fail(
+            fmt::format("tensor '{}': element {} is {}, expected a finite number", name, i, values[i]));
     }
   };
   read(kFrameColor, light.color, 3);

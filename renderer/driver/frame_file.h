@@ -1,6 +1,6 @@
 #pragma once
-// What one frame of an animation hands on to the next, in a file: a cache file with the frame's light, or the light
-// alone where there is no cache.
+// What one frame of an animation hands on to the next, in a file: a cache file with the frame's light, or the
+// light alone where there is no cache.
 
 #include <filesystem>
 #include <optional>

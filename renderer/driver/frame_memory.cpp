@@ -13,7 +13,7 @@ namespace {
 
 /// Below the first the light has not changed; from the second on the cache begins anew.
 constexpr double kUnchanged = 0.02;
-constexpr double kChanged = 0.4;
+constexpr double kChanged = 0.3;
 
 }  // namespace
 
@@ -59,17 +59,22 @@ void FrameMemory::restore(const PreparedPicture& picture, const std::filesystem:
                                               .color = std::move(light.color),
                                               .albedo = std::move(light.albedo),
                                               .samples = std::move(light.samples)});
+  if (!picture.scene.motion.any()) return;
+  history->probes = picture.arena.execute([&] { return probe_light(*picture.world, history->points); });
 }
 
 Reuse FrameMemory::reuse(const PreparedPicture& picture, const Film& film) {
   const PixelRect& rect = film.rect();
   VisiblePoints points =
       trace_visible_points(*picture.world, picture.camera, rect, history ? &history->view : nullptr);
+  std::vector<float> probes;
+  if (picture.scene.motion.any()) probes = probe_light(*picture.world, points.now);
   Reuse reuse;
   if (history) {
-    reuse = reuse_samples(film, std::move(points), *history);
+    reuse = reuse_samples(film, std::move(points), std::move(probes), *history);
   } else {
     reuse.points = std::move(points);
+    reuse.probes = std::move(probes);
     reuse.color = film.plane(Plane::mean, rect.y0, rect.y1);
     for (const RadianceSum& pixel : film.sums().radiance)
       reuse.samples.push_back(static_cast<float>(pixel.count));
@@ -85,7 +90,8 @@ void FrameMemory::keep(const DenoisedRows& denoised, const Reuse& reuse) {
                                               .points = reuse.points.now,
                                               .color = denoised.color,
                                               .albedo = denoised.albedo,
-                                              .samples = reuse.samples});
+                                              .samples = reuse.samples,
+                                              .probes = reuse.probes});
 }
 
 void FrameMemory::write(const PreparedPicture& picture, const std::filesystem::path& path,

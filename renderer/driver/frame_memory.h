@@ -11,6 +11,7 @@
 #include "renderer/driver/render_context.h"
 #include "renderer/fingerprint/scene_fingerprint.h"
 #include "renderer/reuse/history.h"
+#include "renderer/reuse/light_probes.h"
 
 namespace gatelight::renderer {
 
@@ -23,7 +24,7 @@ struct FrameMemory {
   SceneFingerprint fingerprint;         ///< of the scene in which the cache was laid out
   std::unique_ptr<CacheSession> cache;  ///< null without a cache, and while a frame uses it
 
-  std::unique_ptr<History> history;     ///< of the last frame that was denoised; null before the first one
+  std::unique_ptr<History> history;  ///< of the last frame that was denoised; null before the first one
 
   /// The film's samples with the light of the frame before. For the caller's arena.
   Reuse reuse(const PreparedPicture& picture, const Film& film);

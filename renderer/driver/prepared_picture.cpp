@@ -150,10 +150,9 @@ void PreparedPicture::choose_integrator() {
 }
 
 WorldOptions PreparedPicture::world_options() const {
-  return {options.environment,   options.light_selection,
-          {threads, options.isa, bvh_budget, options.watertight},
-          options.glass_shadows, options.light_groups,
-          options.background};
+  return {
+      options.environment,   options.light_selection, {threads, options.isa, bvh_budget, options.watertight},
+      options.glass_shadows, options.light_groups,    options.background};
 }
 
 void PreparedPicture::scene_moved(const CameraOptions& chosen) {

@@ -36,7 +36,9 @@ class Camera {
   std::optional<Vec2> pixel_of(const Vec3& point) const;
 
   /// The unit direction of the ray through the middle of the lens to a point.
-  Vec3 direction_to(const Vec3& point) const { return orthographic_ ? forward_ : (point - origin_).normalized(); }
+  Vec3 direction_to(const Vec3& point) const {
+    return orthographic_ ? forward_ : (point - origin_).normalized();
+  }
 
   /// The matrices for points in the file's coordinates, whose origin is at -`origin`. A panorama has none.
   std::optional<ViewMatrices> matrices(const Vec3& origin) const;

@@ -20,9 +20,13 @@ constexpr float kDarkest = 0.02f;
 constexpr float kMostAcross = 1.0f, kMostAlong = 3.0f;
 constexpr float kLeastCosine = 0.9f;
 /// Share of what an edge takes over: the earlier picture mixes its surfaces in other parts.
-constexpr float kAtEdges = 0.25f;
-/// Pixels around, in each direction, whose light is compared; its difference is allowed to be so many standard
-/// errors and this share of the light, and twice of both is too much.
+constexpr float kAtEdges = 0.0f;
+/// Pixels around, in each direction, whose probes are compared. Their light is the same up to the first
+/// relative change, and another from the second on.
+constexpr int kAroundProbe = 2;
+constexpr float kUnchanged = 0.03f, kChanged = 0.2f;
+/// Pixels around, in each direction, whose light is compared; its difference is allowed to be so many
+/// standard errors and this share of the light, and twice of both is too much.
 constexpr int kAround = 4;
 constexpr float kStandardErrors = 2.0f, kAllowed = 0.05f;
 
@@ -32,7 +36,8 @@ float factor(float albedo) {
 
 /// Luminance of the light on a surface.
 float light_of(const float* color, const float* albedo) {
-  return luminance(Color(color[0] / factor(albedo[0]), color[1] / factor(albedo[1]), color[2] / factor(albedo[2])));
+  return luminance(
+      Color(color[0] / factor(albedo[0]), color[1] / factor(albedo[1]), color[2] / factor(albedo[2])));
 }
 
 bool same_surface(const VisiblePoint& there, const VisiblePoint& now, const EarlierPoint& earlier) {
@@ -42,7 +47,8 @@ bool same_surface(const VisiblePoint& there, const VisiblePoint& now, const Earl
   const float width = std::max(there.width, now.width);
   const float across = std::abs(apart.dot(earlier.normal));
   // A pixel is longer on a surface that is seen from the side.
-  return across <= kMostAcross * width && apart.squaredNorm() <= 400.0f * kMostAlong * kMostAlong * width * width;
+  return across <= kMostAcross * width &&
+         apart.squaredNorm() <= 400.0f * kMostAlong * kMostAlong * width * width;
 }
 
 /// How far the light still holds that depends on the view.
@@ -55,13 +61,16 @@ float same_gloss(const VisiblePoint& now, const EarlierPoint& earlier) {
 struct Carried {
   Color color{0.0f, 0.0f, 0.0f};
   float samples = 0.0f;
+  float probe = 0.0f;
 };
 
 class Carrier {
  public:
-  Carrier(const Film& film, const VisiblePoints& points, const History& history)
+  Carrier(const Film& film, const VisiblePoints& points, const std::vector<float>& probes,
+          const History& history)
       : rect_(film.rect()),
         points_(points),
+        probes_(probes),
         history_(history),
         color_(film.plane(Plane::mean, rect_.y0, rect_.y1)),
         albedo_(film.plane(Plane::albedo, rect_.y0, rect_.y1)),
@@ -70,7 +79,10 @@ class Carrier {
 
   Reuse run() {
     carry();
-    compare();
+    if (!probes_.empty() && !history_.probes.empty()) {
+      compare_probes();
+      compare_samples();
+    }
     return blend();
   }
 
@@ -100,22 +112,25 @@ class Carrier {
     float weights = 0.0f;
     for (int k = 0; k < 4; ++k) {
       const float px = left + static_cast<float>(k & 1), py = top + static_cast<float>(k >> 1);
-      if (!(px >= static_cast<float>(r.x0) && px < static_cast<float>(r.x1) && py >= static_cast<float>(r.y0) &&
-            py < static_cast<float>(r.y1)))
+      if (!(px >= static_cast<float>(r.x0) && px < static_cast<float>(r.x1) &&
+            py >= static_cast<float>(r.y0) && py < static_cast<float>(r.y1)))
         continue;
       const std::size_t there = r.index(static_cast<int>(px), static_cast<int>(py));
       if (!(history_.samples[there] > 0.0f) || !same_surface(history_.points[there], now, earlier)) continue;
       const float weight = ((k & 1) != 0 ? u : 1.0f - u) * ((k >> 1) != 0 ? v : 1.0f - v);
       weights += weight;
       sum.samples += weight * history_.samples[there];
+      if (!history_.probes.empty()) sum.probe += weight * history_.probes[there];
       for (int c = 0; c < 3; ++c) {
         const std::size_t from = 3 * there + static_cast<std::size_t>(c);
         sum.color[c] += weight * history_.color[from] / factor(history_.albedo[from]);
       }
     }
     if (!(weights > 0.01f)) return {};
-    for (int c = 0; c < 3; ++c) sum.color[c] *= factor(albedo_[3 * i + static_cast<std::size_t>(c)]) / weights;
+    for (int c = 0; c < 3; ++c)
+      sum.color[c] *= factor(albedo_[3 * i + static_cast<std::size_t>(c)]) / weights;
     sum.samples = std::min(sum.samples, kMostEarlier * samples(i)) * weights * same_gloss(now, earlier);
+    sum.probe /= weights;
     if (is_edge(i)) sum.samples *= kAtEdges;
     return sum;
   }
@@ -129,12 +144,29 @@ class Carrier {
       if (a.hit.instance != b.hit.instance || a.normal.dot(b.normal) < kLeastCosine) return true;
       return std::abs((a.position - b.position).dot(a.normal)) > 2.0f * a.width;
     };
-    return (x > 0 && differs(i - 1)) || (x + 1 < width && differs(i + 1)) || (i >= width && differs(i - width)) ||
-           (i + width < points_.now.size() && differs(i + width));
+    return (x > 0 && differs(i - 1)) || (x + 1 < width && differs(i + 1)) ||
+           (i >= width && differs(i - width)) || (i + width < points_.now.size() && differs(i + width));
+  }
+
+  /// Takes less over where the light of the probes has changed.
+  void compare_probes() {
+    const std::size_t pixels = carried_.size();
+    std::vector<float> difference(pixels), light(pixels);
+    for_each_pixel([&](std::size_t i) {
+      if (!(carried_[i].samples > 0.0f)) return;
+      difference[i] = std::abs(probes_[i] - carried_[i].probe);
+      light[i] = std::max(probes_[i], carried_[i].probe);
+    });
+    for (std::vector<float>* plane : {&difference, &light})
+      box_filter(*plane, rect_.width(), rect_.height(), kAroundProbe);
+    for_each_pixel([&](std::size_t i) {
+      const float change = light[i] > 0.0f ? difference[i] / light[i] : 0.0f;
+      carried_[i].samples *= std::clamp((kChanged - change) / (kChanged - kUnchanged), 0.0f, 1.0f);
+    });
   }
 
   /// Takes less over where the light around has changed by more than its noise.
-  void compare() {
+  void compare_samples() {
     const std::size_t pixels = carried_.size();
     std::vector<float> there(pixels), now(pixels), before(pixels), variance(pixels);
     for_each_pixel([&](std::size_t i) {
@@ -202,6 +234,7 @@ class Carrier {
 
   PixelRect rect_;
   const VisiblePoints& points_;
+  const std::vector<float>& probes_;
   const History& history_;
   std::vector<float> color_, albedo_;
   const Film& film_;
@@ -210,9 +243,11 @@ class Carrier {
 
 }  // namespace
 
-Reuse reuse_samples(const Film& film, VisiblePoints points, const History& history) {
-  Reuse reuse = Carrier(film, points, history).run();
+Reuse reuse_samples(const Film& film, VisiblePoints points, std::vector<float> probes,
+                    const History& history) {
+  Reuse reuse = Carrier(film, points, probes, history).run();
   reuse.points = std::move(points);
+  reuse.probes = std::move(probes);
   return reuse;
 }
 

@@ -18,22 +18,25 @@ struct History {
   std::vector<float> color;    ///< 3 floats a pixel: denoised
   std::vector<float> albedo;   ///< 3 floats a pixel: of the guides
   std::vector<float> samples;  ///< 1 float a pixel: their number, with those taken over
+  std::vector<float> probes;   ///< probe_light(); empty where nothing but the camera moves
 };
 
 struct Reuse {
   VisiblePoints points;
+  std::vector<float> probes;   ///< of the points
   std::vector<float> color;    ///< 3 floats a pixel: the mean of the film's samples and those taken over
   std::vector<float> samples;  ///< 1 float a pixel: their number
   double share = 0.0;          ///< of the pixels that took samples over
 };
 
-/// Most samples that a pixel takes over, in those that the frame itself has: more hold light longer still, but
-/// follow its changes later.
+/// Most samples that a pixel takes over, in those that the frame itself has: more hold light longer still,
+/// but follow its changes later.
 inline constexpr float kMostEarlier = 12.0f;
 
-/// Takes over samples where the earlier frame shows the same surface and, within the noise, the same light
-/// around. The light without the surface's colour is carried. Works in the caller's
-/// arena.
-Reuse reuse_samples(const Film& film, VisiblePoints points, const History& history);
+/// Takes over samples where the earlier frame shows the same surface in the same light. The light without the
+/// surface's colour is carried. `probes`: of the points; empty where nothing but the camera moves. Works in
+/// the caller's arena.
+Reuse reuse_samples(const Film& film, VisiblePoints points, std::vector<float> probes,
+                    const History& history);
 
 }  // namespace gatelight::renderer

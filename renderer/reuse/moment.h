@@ -17,8 +17,8 @@ class Moment {
   Moment() = default;
   explicit Moment(const scene::Scene& scene);
 
-  /// The corners of a triangle in world space, in the order of the scene's mesh. Nothing where the instance was
-  /// hidden, or its mesh had other vertices.
+  /// The corners of a triangle in world space, in the order of the scene's mesh. Nothing where the instance
+  /// was hidden, or its mesh had other vertices.
   std::optional<std::array<Vec3, 3>> triangle(const scene::Scene& scene, std::uint32_t instance,
                                               std::uint32_t primitive) const;
 
@@ -27,7 +27,7 @@ class Moment {
     Affine transform;
     bool hidden;
   };
-  std::map<std::uint32_t, Place> moving_;               ///< by instance
+  std::map<std::uint32_t, Place> moving_;       ///< by instance
   std::map<int, std::vector<Vec3>> deforming_;  ///< positions by mesh
 };
 

@@ -70,8 +70,10 @@ class Tracer {
     const float width = walker.cone.width + walker.cone.spread * walker.travelled;
     const Surface surface = world_.surfaces.at(hit, direction, width, 0.5f);
     const SurfaceMaterial& m = surface.material;
-    if (is_mirror_or_clear(m)) return m.transmission > 0.5f ? pass(walker, hit, surface) : reflect(walker, hit, surface);
-    const std::optional<Plane> plane = plane_of(scene::world_triangle(world_.scene, instance(hit), hit.primitive), hit);
+    if (is_mirror_or_clear(m))
+      return m.transmission > 0.5f ? pass(walker, hit, surface) : reflect(walker, hit, surface);
+    const std::optional<Plane> plane =
+        plane_of(scene::world_triangle(world_.scene, instance(hit), hit.primitive), hit);
     if (!plane) return false;
     VisiblePoint& point = points_.now[walker.pixel];
     const bool turned = plane->normal.dot(direction) > 0.0f;

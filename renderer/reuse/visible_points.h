@@ -13,9 +13,9 @@ namespace gatelight::renderer {
 
 struct VisiblePoint {
   Hit hit;  ///< of the surface; without one the pixel shows the sky, or what no reuse can follow
-  Vec3 position = Vec3::Zero();  ///< world
-  Vec3 normal = Vec3::Zero();    ///< unit, of the triangle, on the side of the viewer
-  float width = 0.0f;            ///< of a pixel there, metres
+  Vec3 position = Vec3::Zero();   ///< world
+  Vec3 normal = Vec3::Zero();     ///< unit, of the triangle, on the side of the viewer
+  float width = 0.0f;             ///< of a pixel there, metres
   Vec3 reflected = Vec3::Zero();  ///< unit: the mirror direction of the view
   float glossy = 0.0f;            ///< share of the light that comes from around it
   float lobe = 1.0f;              ///< radians: the width of that part
@@ -23,9 +23,9 @@ struct VisiblePoint {
 
 /// The point of the same surface at an earlier time.
 struct EarlierPoint {
-  Vec2 pixel = Vec2::Zero();     ///< its place in the earlier picture, in pixels from the top left corner
-  Vec3 position = Vec3::Zero();  ///< world
-  Vec3 normal = Vec3::Zero();    ///< unit
+  Vec2 pixel = Vec2::Zero();      ///< its place in the earlier picture, in pixels from the top left corner
+  Vec3 position = Vec3::Zero();   ///< world
+  Vec3 normal = Vec3::Zero();     ///< unit
   Vec3 reflected = Vec3::Zero();  ///< unit
 };
 
@@ -36,7 +36,7 @@ struct EarlierView {
 };
 
 struct VisiblePoints {
-  std::vector<VisiblePoint> now;  ///< by pixel, in rows from the top
+  std::vector<VisiblePoint> now;                     ///< by pixel, in rows from the top
   std::vector<std::optional<EarlierPoint>> earlier;  ///< empty without an earlier view
 };
 

@@ -16,7 +16,7 @@ struct DenoiseOptions {
   /// Pixels of the film in one of the picture.
   int parts() const { return supersampling * supersampling; }
   bool temporal = true;  ///< frames of an animation take over samples of earlier ones (reuse/history.h)
-  std::string library;  ///< of the denoiser: its file or folder; empty: searched (denoise/oidn_library.h)
+  std::string library;   ///< of the denoiser: its file or folder; empty: searched (denoise/oidn_library.h)
 };
 
 }  // namespace gatelight::renderer

@@ -48,7 +48,8 @@ struct CameraOptions {
   Projection projection = Projection::camera;
   std::optional<float> view_height;  ///< metres, of an orthographic picture
   LensOptions lens;
-  float turn = 0.0f;  ///< radians by which the camera goes around what it looks at, seen from above to the left
+  float turn =
+      0.0f;  ///< radians by which the camera goes around what it looks at, seen from above to the left
 };
 
 /// Number of samples per pixel which means that something else ends the picture.

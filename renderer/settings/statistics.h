@@ -73,7 +73,7 @@ struct CacheStatistics {
   std::size_t layout_bytes = 0;
   std::string backend;
   double light_change = 0.0;  ///< in an animation, since the frame before (cache/light_change.h)
-  std::string diverged;  ///< why training returned to its last good state (`steps`); else empty
+  std::string diverged;       ///< why training returned to its last good state (`steps`); else empty
 };
 
 /// Statistics of one of several ranks.

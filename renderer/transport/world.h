@@ -38,9 +38,10 @@ struct LastingParts {
 
 /// Later members refer to earlier ones, so a world cannot be moved.
 struct World {
-  /// Works in the caller's arena. The scene must outlive the world. `earlier`: of a world with the same options
-  /// and the same scene at another time, which must not be used any more. Throws the exceptions of the members,
-  /// and BadOption for a shadow catcher that the scene does not have or without a separate background.
+  /// Works in the caller's arena. The scene must outlive the world. `earlier`: of a world with the same
+  /// options and the same scene at another time, which must not be used any more. Throws the exceptions of
+  /// the members, and BadOption for a shadow catcher that the scene does not have or without a separate
+  /// background.
   explicit World(const scene::Scene& scene_in, const WorldOptions& options = {},
                  const LastingParts& earlier = {});
   World(const World&) = delete;

@@ -59,9 +59,9 @@ void Appearance::load_images(const LoadOptions& options, Scene& scene, Warnings&
       scene.images.size() - before,
       [&](std::size_t i, Warnings& own) {
         const std::size_t image = before + i;
-        scene.images[image] = load_image(
-            document_, images_.order()[image],
-            {.missing_is_error = options.missing_is_error, .normal_map = normal[image] != 0}, own);
+        scene.images[image] =
+            load_image(document_, images_.order()[image],
+                       {.missing_is_error = options.missing_is_error, .normal_map = normal[image] != 0}, own);
       },
       warnings);
 }

@@ -67,7 +67,10 @@ void thicken(Affine& transform) {
 class Loader {
  public:
   Loader(const std::filesystem::path& path, const LoadOptions& options)
-      : options_(options), path_(path.string()), document_(path, options, warnings_), appearance_(document_) {}
+      : options_(options),
+        path_(path.string()),
+        document_(path, options, warnings_),
+        appearance_(document_) {}
 
   Scene load() {
     Scene scene;

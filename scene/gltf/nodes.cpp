@@ -165,8 +165,8 @@ class GraphWalk {
     return t;
   }
 
-  /// A node that is not visible shows neither meshes nor lights; cameras stay (KHR_node_visibility). Those that
-  /// are hidden for a while keep their places in the lists.
+  /// A node that is not visible shows neither meshes nor lights; cameras stay (KHR_node_visibility). Those
+  /// that are hidden for a while keep their places in the lists.
   void visit(int index, const Transform& world, const State& state) {
     const tinygltf::Node& node = element(document_.model().nodes, index);
     if ((state.visible || state.blinks) && node.mesh >= 0) place_mesh(index, node, world, state);

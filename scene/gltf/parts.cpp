@@ -45,8 +45,7 @@ std::size_t mesh_bytes(const Document& document, const MeshPart& part) {
 
 }  // namespace
 
-Parts::Parts(const Document& document, const Graph& graph, int variant)
-    : first_(graph.poses.size(), -1) {
+Parts::Parts(const Document& document, const Graph& graph, int variant) : first_(graph.poses.size(), -1) {
   Numbering materials;
   for (const Placement& placement : graph.placements) {
     int& first = first_[static_cast<std::size_t>(placement.pose)];
@@ -71,8 +70,7 @@ void Parts::claim(const Document& document, const Graph& graph, bool baked) cons
     const bool copied = baked && !placement.moves && is_flat(placement.transform);
     std::size_t bytes = 0;
     for_each_of(placement.pose, [&](std::size_t i) {
-      bytes +=
-          sizeof(Instance) + placement.name.size() + (copied ? mesh_bytes(document, parts_[i]) : 0);
+      bytes += sizeof(Instance) + placement.name.size() + (copied ? mesh_bytes(document, parts_[i]) : 0);
     });
     document.claim(bytes, fmt::format("meshes[{}]", element(graph.poses, placement.pose).mesh));
   }

@@ -9,8 +9,8 @@
 namespace gatelight::scene::gltf {
 
 struct MeshPart {
-  int pose;      ///< into Graph::poses
-  int mesh;      ///< index in the file
+  int pose;  ///< into Graph::poses
+  int mesh;  ///< index in the file
   int primitive;
   int material;  ///< into Parts::materials()
 };
