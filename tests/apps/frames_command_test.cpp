@@ -1,0 +1,121 @@
+// Frames of an animation through the real program.
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "renderer/image/image_read.h"
+#include "tests/support/folder_test.h"
+#include "tests/support/process.h"
+
+namespace gatelight::tests {
+namespace {
+
+class Frames : public FolderTest {
+ protected:
+  /// The cache learns, and the denoiser carries light where it is installed.
+  Output render(const std::vector<std::string>& flags, const std::string& scene = "moving-room") const {
+    std::vector<std::string> words = {"render",         GATELIGHT_SOURCE_DIR "/data/" + scene + ".glb",
+                                      "--size",         "40x24",
+                                      "--spp",          "2",
+                                      "--preset",       "standard",
+                                      "--integrator",   "nrc",
+                                      "--train-steps",  "40",
+                                      "--reproducible", "--exr",
+                                      "float"};
+    words.insert(words.end(), flags.begin(), flags.end());
+    return run_gatelight(words);
+  }
+
+  std::vector<float> colors_of(const std::string& file) const {
+    return renderer::read_image(path(file)).layers.front().values;
+  }
+
+  void expect_same_file(const std::string& a, const std::string& b) const {
+    EXPECT_TRUE(read_file(path(a)) == read_file(path(b))) << a << " and " << b;
+  }
+};
+
+TEST_F(Frames, AreTheSameForAnyThreadsAndAfterAResume) {
+  const Output whole = render({"--frames", "0:3", "--fps", "6", "-o", path("a-%d.exr"), "--threads", "2"});
+  ASSERT_EQ(whole.exit_code, 0) << whole.err;
+  const std::vector<std::string> one = {"-o", path("b-%d.exr"), "--threads",  "1", "--fps",
+                                        "6",  "--checkpoint",   path("state")};
+  const auto with = [&](std::vector<std::string> flags) {
+    flags.insert(flags.end(), one.begin(), one.end());
+    return flags;
+  };
+  // The first run makes only two of the frames. They are scouted with all that it makes, so all four are
+  // named.
+  ASSERT_EQ(render(with({"--frames", "0:3", "--resume"})).exit_code, 0);
+  for (const char* frame : {"0", "1", "2", "3"})
+    expect_same_file(std::string("a-") + frame + ".exr", std::string("b-") + frame + ".exr");
+  std::filesystem::remove(path("b-3.exr"));
+  const Output again = render(with({"--frames", "0:3", "--resume"}));
+  EXPECT_EQ(again.exit_code, 0) << again.err;
+  EXPECT_FALSE(std::filesystem::exists(path("b-3.exr"))) << "the state says that it is done";
+}
+
+TEST_F(Frames, GoOnFromTheCacheOfTheFrameBefore) {
+  ASSERT_EQ(render({"--frames", "0:2", "--fps", "6", "-o", path("a-%d.exr"), "--cache-out", path("cache-%d")})
+                .exit_code,
+            0);
+  const Output one =
+      render({"--frames", "2:2", "--fps", "6", "-o", path("b.exr"), "--cache-in", path("cache-1")});
+  ASSERT_EQ(one.exit_code, 0) << one.err;
+  EXPECT_EQ(colors_of("a-2.exr"), colors_of("b.exr")) << "the headers differ: one names the cache";
+  const Output resumed = render(
+      {"--frames", "0:2", "--fps", "6", "-o", path("c-%d.exr"), "--checkpoint", path("cache-1"), "--resume"});
+  ASSERT_EQ(resumed.exit_code, 0) << resumed.err;
+  EXPECT_FALSE(std::filesystem::exists(path("c-1.exr")));
+  expect_same_file("a-2.exr", "c-2.exr");
+}
+
+TEST_F(Frames, WithoutACacheResumeToo) {
+  const std::vector<std::string> paths = {"--integrator", "path"};
+  const auto run = [&](const std::string& output, const std::vector<std::string>& more) {
+    std::vector<std::string> words = {"render",         GATELIGHT_SOURCE_DIR "/data/moving-room.glb",
+                                      "--size",         "40x24",
+                                      "--spp",          "2",
+                                      "--denoiser",     "auto",
+                                      "--fps",          "6",
+                                      "--reproducible", "--exr",
+                                      "float",          "-o",
+                                      path(output)};
+    words.insert(words.end(), more.begin(), more.end());
+    return run_gatelight(words);
+  };
+  ASSERT_EQ(run("a-%d.exr", {"--frames", "0:2"}).exit_code, 0);
+  ASSERT_EQ(run("b-%d.exr", {"--frames", "0:1", "--checkpoint", path("state")}).exit_code, 0);
+  const Output rest = run("b-%d.exr", {"--frames", "0:2", "--checkpoint", path("state"), "--resume"});
+  ASSERT_EQ(rest.exit_code, 0) << rest.err;
+  expect_same_file("a-2.exr", "b-2.exr");
+}
+
+TEST_F(Frames, OfATurntableComeBack) {
+  const Output turn = render(
+      {"--turntable", "4", "--frames", "0:4:4", "--temporal", "off", "-o", path("t-%d.exr")}, "cornell-box");
+  ASSERT_EQ(turn.exit_code, 0) << turn.err;
+  EXPECT_FALSE(read_file(path("t-0.exr")) == read_file(path("t-4.exr"))) << "other random numbers";
+}
+
+TEST_F(Frames, AFailureOfOneDoesNotLoseTheOthers) {
+  std::filesystem::create_directory(path("f-1.exr"));
+  const Output run = render({"--frames", "0:2", "--fps", "6", "-o", path("f-%d.exr")});
+  EXPECT_EQ(run.exit_code, 3) << run.err;
+  EXPECT_NE(run.err.find("frame 1 failed: cannot write"), std::string::npos) << run.err;
+  EXPECT_TRUE(std::filesystem::exists(path("f-0.exr")));
+  EXPECT_TRUE(std::filesystem::exists(path("f-2.exr")));
+}
+
+TEST_F(Frames, TellTheirProgress) {
+  const Output json = render({"--frames", "0:1", "-o", path("f-%d.exr"), "--progress", "json"});
+  EXPECT_EQ(json.exit_code, 0);
+  for (const char* text : {"\"event\":\"frame\"", "\"frame\":1", "\"frames\":2", "\"event\":\"done\""})
+    EXPECT_NE(json.err.find(text), std::string::npos) << text << "\n" << json.err;
+}
+
+}  // namespace
+}  // namespace gatelight::tests

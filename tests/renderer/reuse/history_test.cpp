@@ -1,0 +1,136 @@
+// Light of an earlier frame in a film.
+
+#include "renderer/reuse/history.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/renderer/cache/small_worlds.h"
+
+namespace gatelight::renderer {
+namespace {
+
+using testing::SceneBuilder;
+using testing::view_from;
+
+constexpr int kWidth = 32, kHeight = 24;
+constexpr PixelRect kRect{0, 0, kWidth, kHeight};
+constexpr std::size_t kPixels = std::size_t{kWidth} * kHeight;
+
+/// A wall before the camera, and a film of it with four equal samples a pixel.
+struct Wall {
+  explicit Wall(const scene::Material& material) {
+    builder.quad(builder.material(material), Vec3(-9, -9, 0), Vec3(18, 0, 0), Vec3(0, 18, 0));
+    world.emplace(builder.scene());
+  }
+
+  Film film(float radiance, float albedo) const {
+    Film film(kRect, kWidth, kHeight, {.guides = true});
+    for (int y = 0; y < kHeight; ++y) {
+      for (int x = 0; x < kWidth; ++x) {
+        for (int s = 0; s < 4; ++s) {
+          const PixelSample sample = film.take(Pixel{x, y});
+          FirstHit first;
+          first.hit = true;
+          first.guide = {true, 0, Color::Ones(), Color::Constant(albedo), Vec3::UnitZ()};
+          film.add(sample, Color::Constant(radiance));
+          film.add(sample, first);
+        }
+      }
+    }
+    return film;
+  }
+
+  /// A history of uniform light. `probe` is negative for none.
+  History history(const Camera& from, float radiance, float albedo, float samples, float probe) const {
+    History h{.view = {Moment(), from}, .rect = kRect};
+    h.points = trace_visible_points(*world, from, kRect, nullptr).now;
+    h.color.assign(3 * kPixels, radiance);
+    h.albedo.assign(3 * kPixels, albedo);
+    h.samples.assign(kPixels, samples);
+    if (probe >= 0.0f) h.probes.assign(kPixels, probe);
+    return h;
+  }
+
+  Reuse reuse(const Film& film, const History& history, float probe = -1.0f) const {
+    std::vector<float> probes;
+    if (probe >= 0.0f) probes.assign(kPixels, probe);
+    return reuse_samples(film, trace_visible_points(*world, camera, kRect, &history.view), std::move(probes),
+                         history);
+  }
+
+  SceneBuilder builder;
+  std::optional<World> world;
+  Camera camera{view_from(Vec3(0, 0, 4), Vec3::Zero()), kWidth, kHeight};
+};
+
+scene::Material matte() {
+  return SceneBuilder::lambert(Color::Constant(0.5f));
+}
+
+TEST(ReusedSamples, AreWeightedByTheirNumbers) {
+  const Wall wall(matte());
+  const Reuse reuse = wall.reuse(wall.film(1.0f, 0.5f), wall.history(wall.camera, 2.0f, 0.5f, 12.0f, -1.0f));
+  EXPECT_EQ(reuse.share, 1.0);
+  for (const float color : reuse.color) EXPECT_NEAR(color, (4.0f * 1.0f + 12.0f * 2.0f) / 16.0f, 1e-5f);
+  for (const float samples : reuse.samples) EXPECT_NEAR(samples, 16.0f, 1e-4f);
+}
+
+TEST(ReusedSamples, AreAtMostSoMany) {
+  const Wall wall(matte());
+  const Reuse reuse = wall.reuse(wall.film(1.0f, 0.5f), wall.history(wall.camera, 1.0f, 0.5f, 1e6f, -1.0f));
+  for (const float samples : reuse.samples) EXPECT_NEAR(samples, 4.0f * (1.0f + kMostEarlier), 1e-2f);
+}
+
+TEST(ReusedSamples, TakeTheColorOfThePresentSurface) {
+  const Wall wall(matte());
+  const Reuse reuse = wall.reuse(wall.film(1.0f, 0.25f), wall.history(wall.camera, 2.0f, 0.5f, 4.0f, -1.0f));
+  for (const float color : reuse.color)
+    EXPECT_NEAR(color, 1.0f, 1e-5f) << "the light on the wall is 4 in both";
+}
+
+TEST(ReusedSamples, ComeFromWhereThePointWas) {
+  const Wall wall(matte());
+  const Camera beside(view_from(Vec3(1, 0, 4), Vec3(1, 0, 0)), kWidth, kHeight);
+  History history = wall.history(beside, 0.0f, 0.5f, 12.0f, -1.0f);
+  for (std::size_t i = 0; i < kPixels; ++i) {
+    for (std::size_t c = 0; c < 3; ++c) history.color[3 * i + c] = history.points[i].position.x() + 9.0f;
+  }
+  const Film film = wall.film(9.0f, 0.5f);
+  const Reuse reuse = wall.reuse(film, history);
+  int seen = 0;
+  for (std::size_t i = 0; i < kPixels; ++i) {
+    if (!(reuse.samples[i] > 15.0f)) continue;
+    ++seen;
+    EXPECT_NEAR(reuse.color[3 * i], (4.0f * 9.0f + 12.0f * (reuse.points.now[i].position.x() + 9.0f)) / 16.0f,
+                0.01f);
+  }
+  EXPECT_GT(seen, static_cast<int>(kPixels) / 2);
+  EXPECT_LT(seen, static_cast<int>(kPixels)) << "a part was not in the earlier picture";
+}
+
+TEST(ReusedSamples, AreNotTakenFromAnotherLight) {
+  const Wall wall(matte());
+  const Film film = wall.film(1.0f, 0.5f);
+  EXPECT_EQ(wall.reuse(film, wall.history(wall.camera, 1.0f, 0.5f, 12.0f, 3.0f), 1.0f).share, 0.0)
+      << "probes differ";
+  EXPECT_EQ(wall.reuse(film, wall.history(wall.camera, 2.0f, 0.5f, 12.0f, 1.0f), 1.0f).share, 0.0)
+      << "samples differ, without noise";
+  EXPECT_EQ(wall.reuse(film, wall.history(wall.camera, 1.0f, 0.5f, 12.0f, 1.0f), 1.0f).share, 1.0);
+}
+
+TEST(ReusedSamples, OfMetalsNeedTheSameReflection) {
+  scene::Material metal;
+  metal.metallic = 1.0f;
+  metal.roughness = 0.3f;
+  const Wall wall(metal);
+  const Film film = wall.film(1.0f, 0.5f);
+  const auto mean_samples = [&](const Camera& from) {
+    const Reuse reuse = wall.reuse(film, wall.history(from, 1.0f, 0.5f, 12.0f, -1.0f));
+    return reuse.samples[kRect.index(kWidth / 2, kHeight / 2)];
+  };
+  EXPECT_NEAR(mean_samples(wall.camera), 16.0f, 1e-3f);
+  EXPECT_NEAR(mean_samples(Camera(view_from(Vec3(1, 0, 4), Vec3::Zero()), kWidth, kHeight)), 4.0f, 0.1f);
+}
+
+}  // namespace
+}  // namespace gatelight::renderer

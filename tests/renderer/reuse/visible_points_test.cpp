@@ -1,0 +1,118 @@
+// Points of pixels, and their places a frame ago, against closed forms.
+
+#include "renderer/reuse/visible_points.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "renderer/sampling/warp.h"
+#include "tests/renderer/cache/small_worlds.h"
+
+namespace gatelight::renderer {
+namespace {
+
+using testing::SceneBuilder;
+using testing::view_from;
+
+constexpr int kWidth = 64, kHeight = 48;
+constexpr PixelRect kRect{0, 0, kWidth, kHeight};
+
+TEST(CameraPixels, AreTheInverseOfRays) {
+  View view(view_from(Vec3(1, 2, 3), Vec3(0.5f, 0, -1)));
+  View parallel = view;
+  parallel.orthographic = true;
+  parallel.half_height = 2.0f;
+  View panorama = view;
+  panorama.panorama = true;
+  for (const View& v : {view, parallel, panorama}) {
+    const Camera camera(v, kWidth, kHeight);
+    for (const Vec2& pixel : {Vec2(0.5f, 0.5f), Vec2(40.25f, 13.0f), Vec2(63.0f, 47.5f)}) {
+      const Ray ray = camera.ray(pixel.x(), pixel.y()).ray;
+      const std::optional<Vec2> found = camera.pixel_of(ray.origin + 5.0f * ray.direction);
+      ASSERT_TRUE(found);
+      EXPECT_LT((*found - pixel).norm(), 1e-3f);
+    }
+  }
+  const Camera camera(view, kWidth, kHeight);
+  EXPECT_FALSE(camera.pixel_of(Vec3(2, 4, 9))) << "behind it";
+}
+
+/// A quad that moves, before a wall. The quad's transform is `at`.
+SceneBuilder moving_quad(const Affine& at) {
+  SceneBuilder builder;
+  const int matte = builder.material(SceneBuilder::lambert(Color::Constant(0.5f)));
+  builder.quad(matte, Vec3(-9, -9, -4), Vec3(18, 0, 0), Vec3(0, 18, 0));
+  builder.quad(matte, Vec3(-1, -1, 0), Vec3(2, 0, 0), Vec3(0, 2, 0));
+  scene::Instance& quad = builder.scene().instances.back();
+  quad.baked = false;
+  quad.moves = true;
+  quad.transform = at;
+  builder.scene().motion.instances = true;
+  builder.scene().cameras.push_back(view_from(Vec3(0, 0, 4), Vec3::Zero()));
+  return builder;
+}
+
+TEST(VisiblePoints, FollowWhatMoves) {
+  Affine before = Affine::Identity(), now = Affine::Identity();
+  before.translation() = Vec3(-0.5f, 0.25f, 0.0f);
+  before.rotate(Eigen::AngleAxisf(0.2f, Vec3::UnitZ()));
+  now.translation() = Vec3(0.3f, 0.0f, 0.5f);
+  SceneBuilder earlier = moving_quad(before), present = moving_quad(now);
+  const World world(present.scene());
+  const Camera camera(present.scene().cameras[0], kWidth, kHeight);
+  const EarlierView view{Moment(earlier.scene()), camera};
+  const VisiblePoints points = trace_visible_points(world, camera, kRect, &view);
+  int moved = 0;
+  for (std::size_t i = 0; i < points.now.size(); ++i) {
+    const VisiblePoint& point = points.now[i];
+    ASSERT_TRUE(point.hit);
+    ASSERT_TRUE(points.earlier[i]);
+    const Vec3 expected =
+        point.hit.instance == 1 ? Vec3(before * now.inverse() * point.position) : point.position;
+    moved += point.hit.instance == 1 ? 1 : 0;
+    EXPECT_LT((points.earlier[i]->position - expected).norm(), 1e-4f);
+    EXPECT_LT((points.earlier[i]->pixel - *camera.pixel_of(expected)).norm(), 1e-2f);
+    EXPECT_NEAR(points.earlier[i]->normal.z(), 1.0f, 1e-5f);
+  }
+  EXPECT_GT(moved, 300);
+}
+
+TEST(VisiblePoints, HiddenThingsHaveNoEarlierPlace) {
+  SceneBuilder earlier = moving_quad(Affine::Identity()), present = moving_quad(Affine::Identity());
+  earlier.scene().instances[1].hidden = true;
+  const World world(present.scene());
+  const Camera camera(present.scene().cameras[0], kWidth, kHeight);
+  const EarlierView view{Moment(earlier.scene()), camera};
+  const VisiblePoints points = trace_visible_points(world, camera, kRect, &view);
+  for (std::size_t i = 0; i < points.now.size(); ++i)
+    EXPECT_EQ(points.earlier[i].has_value(), points.now[i].hit.instance == 0);
+}
+
+TEST(VisiblePoints, InAMirrorAreWhereTheImageWas) {
+  SceneBuilder builder;
+  scene::Material mirror;
+  mirror.metallic = 1.0f;
+  mirror.roughness = 0.0f;
+  builder.quad(builder.material(mirror), Vec3(-9, -9, 0), Vec3(18, 0, 0), Vec3(0, 18, 0));
+  const int matte = builder.material(SceneBuilder::lambert(Color::Constant(0.5f)));
+  builder.quad(matte, Vec3(9, -9, 9), Vec3(-18, 0, 0), Vec3(0, 18, 0));
+  const World world(builder.scene());
+  const Camera camera(view_from(Vec3(0, 0, 4), Vec3::Zero()), kWidth, kHeight);
+  const Camera before(view_from(Vec3(0.5f, 0, 4), Vec3(0.5f, 0, 0)), kWidth, kHeight);
+  const EarlierView view{Moment(builder.scene()), before};
+  const VisiblePoints points = trace_visible_points(world, camera, kRect, &view);
+  const std::size_t middle = kRect.index(kWidth / 2, kHeight / 2);
+  ASSERT_EQ(points.now[middle].hit.instance, 1u);
+  ASSERT_TRUE(points.earlier[middle]);
+  const Vec3& seen = points.now[middle].position;
+  EXPECT_NEAR(seen.z(), 9.0f, 1e-4f);
+  EXPECT_LT((points.earlier[middle]->position - seen).norm(), 1e-4f);
+  const Vec3 image(seen.x(), seen.y(), -9.0f);
+  EXPECT_LT((points.earlier[middle]->pixel - *before.pixel_of(image)).norm(), 1e-2f);
+  // 13 m away, the camera's half a metre is 2.1 pixels.
+  EXPECT_NEAR(points.earlier[middle]->pixel.x() - (kWidth / 2 + 0.5f), -1.91f, 0.05f);
+}
+
+}  // namespace
+}  // namespace gatelight::renderer

@@ -1,0 +1,123 @@
+// A file that stays open shows each time as a file that is opened for it.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "scene/gltf.h"
+#include "tests/support/animated_file.h"
+
+namespace gatelight::scene {
+namespace {
+
+const std::string kFigure = GATELIGHT_DATA "/figure.glb";
+const std::string kMovingRoom = GATELIGHT_DATA "/moving-room.glb";
+
+void expect_same_scene(const Scene& a, const Scene& b) {
+  ASSERT_EQ(a.instances.size(), b.instances.size());
+  for (std::size_t i = 0; i < a.instances.size(); ++i) {
+    EXPECT_TRUE(a.instances[i].transform.matrix() == b.instances[i].transform.matrix()) << i;
+    EXPECT_EQ(a.instances[i].hidden, b.instances[i].hidden) << i;
+    EXPECT_EQ(a.instances[i].mirrors, b.instances[i].mirrors) << i;
+    EXPECT_EQ(a.instances[i].mesh, b.instances[i].mesh) << i;
+  }
+  ASSERT_EQ(a.meshes.size(), b.meshes.size());
+  for (std::size_t m = 0; m < a.meshes.size(); ++m) {
+    EXPECT_TRUE(a.meshes[m].positions == b.meshes[m].positions) << m;
+    EXPECT_EQ(a.meshes[m].normals, b.meshes[m].normals) << m;
+    EXPECT_EQ(a.meshes[m].triangles, b.meshes[m].triangles) << m;
+  }
+  ASSERT_EQ(a.materials.size(), b.materials.size());
+  for (std::size_t m = 0; m < a.materials.size(); ++m) {
+    EXPECT_TRUE((a.materials[m].emission == b.materials[m].emission).all()) << m;
+    EXPECT_TRUE((a.materials[m].base_color == b.materials[m].base_color).all()) << m;
+  }
+  ASSERT_EQ(a.lights.size(), b.lights.size());
+  for (std::size_t i = 0; i < a.lights.size(); ++i) {
+    EXPECT_EQ(a.lights[i].position, b.lights[i].position) << i;
+    EXPECT_TRUE((a.lights[i].intensity == b.lights[i].intensity).all()) << i;
+  }
+  ASSERT_EQ(a.cameras.size(), b.cameras.size());
+  for (std::size_t i = 0; i < a.cameras.size(); ++i)
+    EXPECT_TRUE(a.cameras[i].transform.matrix() == b.cameras[i].transform.matrix()) << i;
+  EXPECT_EQ(a.warnings, b.warnings);
+  EXPECT_EQ(a.bounds.min(), b.bounds.min());
+  EXPECT_EQ(a.bounds.max(), b.bounds.max());
+}
+
+TEST(SceneFile, ShowsTimesInAnyOrder) {
+  for (const std::string& path : {kFigure, kMovingRoom}) {
+    SceneFile file(path, {.time = 0.0});
+    Scene scene = file.load();
+    for (const double seconds : {0.5, 1.25, 0.0, -3.0, 0.5, 1e6}) {
+      SCOPED_TRACE(seconds);
+      file.show(scene, seconds);
+      expect_same_scene(scene, load_gltf(path, {.time = seconds}));
+    }
+  }
+}
+
+TEST(SceneFile, KnowsWhatMoves) {
+  const SceneMotion figure = load_gltf(kFigure, {.time = 0.0}).motion;
+  EXPECT_TRUE(figure.instances);
+  EXPECT_FALSE(figure.lights || figure.materials || figure.image_light);
+  EXPECT_FALSE(load_gltf(kFigure).motion.any()) << "the pose of its nodes";
+  EXPECT_FALSE(load_gltf(kMovingRoom, {.time = 0.0, .animation = "camera"}).motion.any());
+  const SceneMotion dark = load_gltf(kMovingRoom, {.time = 0.0, .animation = "lamp-off"}).motion;
+  EXPECT_TRUE(dark.materials);
+  EXPECT_FALSE(dark.instances);
+}
+
+TEST(SceneFile, OnlyWhatMovesStaysAnInstance) {
+  const Scene scene = load_gltf(kMovingRoom, {.time = 0.0, .animation = "door"});
+  int moving = 0;
+  for (const Instance& instance : scene.instances) {
+    EXPECT_NE(instance.moves, instance.baked) << instance.name;
+    moving += instance.moves ? 1 : 0;
+  }
+  EXPECT_GT(moving, 0);
+  EXPECT_LT(moving, static_cast<int>(scene.instances.size()));
+}
+
+TEST(SceneFile, LightsThatAreAdjustedStayAdjusted) {
+  AnimatedFile file;
+  file.node({{"mesh", file.mesh(file.triangle())}});
+  file.root["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}, {"name", "lamp"}}};
+  file.node({{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
+  file.move(1, "translation", file.seconds({0, 1}), file.vectors({0, 0, 0, 4, 0, 0}));
+  tests::TemporaryFolder folder;
+  SceneFile open(file.write(folder), {.time = 0.0, .lights = {{"lamp", Color(3, 2, 1)}}});
+  Scene scene = open.load();
+  for (const double seconds : {0.25, 0.5, 1.0}) {
+    open.show(scene, seconds);
+    EXPECT_EQ(scene.lights.at(0).position.x(), 4.0f * static_cast<float>(seconds));
+    EXPECT_TRUE((scene.lights.at(0).intensity == Color(3, 2, 1)).all());
+  }
+}
+
+TEST(SceneFile, WhatIsScaledToNothingIsHiddenForThatTime) {
+  AnimatedFile file = moving_triangle();
+  file.move(0, "scale", file.seconds({0, 1, 2}), file.vectors({1, 1, 1, 0, 0, 0, 2, 2, 2}), "STEP");
+  tests::TemporaryFolder folder;
+  SceneFile open(file.write(folder), {.time = 1.0});
+  Scene scene = open.load();
+  ASSERT_EQ(scene.instances.size(), 1u);
+  EXPECT_TRUE(scene.instances[0].hidden);
+  open.show(scene, 2.0);
+  EXPECT_FALSE(scene.instances[0].hidden);
+  EXPECT_EQ(scene.instances[0].transform.linear()(0, 0), 2.0f);
+}
+
+TEST(SceneFile, AFlatInstanceGetsAThickness) {
+  AnimatedFile file = moving_triangle();
+  file.move(0, "scale", file.seconds({0, 1}), file.vectors({1, 1, 1, 3, 2, 0}));
+  const Affine flat = file.transform_at(1.0);
+  const Eigen::Matrix3f m = flat.linear();
+  EXPECT_GT(std::abs(m.determinant()), 0.0f);
+  EXPECT_NEAR(m(0, 0), 3.0f, 1e-5f);
+  EXPECT_NEAR(m(1, 1), 2.0f, 1e-5f);
+  EXPECT_NEAR(m(2, 2), 3e-5f, 1e-6f);
+}
+
+}  // namespace
+}  // namespace gatelight::scene
