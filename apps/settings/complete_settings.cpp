@@ -193,7 +193,8 @@ void adapt_cache(RenderSettings& settings) {
 }
 
 /// Why a layer would be black, and what it needs; empty where it would not.
-std::string why_black(Aov aov, const RenderOptions& o) {
+std::string why_black(Aov aov, const RenderOptions& o, bool frames) {
+  if (aov == Aov::motion && !frames) return "a still has no motion, expected --frames";
   if (aov < Aov::cache_radiance) return "";
   if (!uses_cache(o.integrator)) return no_cache(o);
   if (aov == Aov::cache_error && o.integrator == Integrator::nao) {
@@ -210,11 +211,11 @@ std::string why_black(Aov aov, const RenderOptions& o) {
 }
 
 /// Layers that would be black are left out of `all`, and refused otherwise.
-void complete_aovs(RenderOptions& o) {
+void complete_aovs(RenderOptions& o, bool frames) {
   if (o.aovs.size() == std::size(kEnumNames<Aov>))
-    std::erase_if(o.aovs, [&](Aov aov) { return !why_black(aov, o).empty(); });
+    std::erase_if(o.aovs, [&](Aov aov) { return !why_black(aov, o, frames).empty(); });
   for (const Aov aov : o.aovs) {
-    const std::string why = why_black(aov, o);
+    const std::string why = why_black(aov, o, frames);
     if (!why.empty()) throw UsageError(fmt::format("--aov: '{}' would be black: {}", enum_name(aov), why));
   }
 }
@@ -265,7 +266,7 @@ void complete_settings(RenderSettings& settings) {
   refuse_without_effect(settings);
   adapt_cache(settings);
   open_samples(settings);
-  complete_aovs(settings.render);
+  complete_aovs(settings.render, settings.frames.range.has_value());
   settings.render.denoise.library = oidn_place(settings.render.denoise.library);
   check_checkpoint(settings);
   check_frame_names(settings);

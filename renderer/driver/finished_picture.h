@@ -39,6 +39,7 @@ struct Finishing {
   /// 3 floats a pixel in place of the film's means: with samples of earlier frames; null: none. There is no
   /// estimate of the error then.
   const std::vector<float>* color = nullptr;
+  std::optional<Layer> motion;  ///< Aov::motion
   /// Receives what is denoised, before a background is put behind it; empty: not needed.
   std::function<void(const DenoisedRows& denoised)> keep;
 };

@@ -6,6 +6,7 @@
 #include "renderer/cache/cache_file.h"
 #include "renderer/cache/cache_model.h"
 #include "renderer/driver/frame_file.h"
+#include "renderer/settings/enum_names.h"
 #include "renderer/settings/resolved_options.h"
 
 namespace gatelight::renderer {
@@ -50,6 +51,9 @@ void FrameMemory::restore(const PreparedPicture& picture, const std::filesystem:
   FrameFile file(path);
   FrameLight light = file.read_light(fingerprint, picture.region.width(), picture.region.height());
   last_frame = file.status().frame;
+  const RenderOptions& options = picture.options_of_picture;
+  view_of_picture_.emplace(
+      EarlierView{Moment(picture.scene), Camera(picture.view, options.width, options.height)});
   if (light.empty()) return;
   VisiblePoints points = picture.arena.execute(
       [&] { return trace_visible_points(*picture.world, picture.camera, picture.region, nullptr); });
@@ -82,6 +86,28 @@ Reuse FrameMemory::reuse(const PreparedPicture& picture, const Film& film) {
   next_view_ = std::make_unique<EarlierView>(EarlierView{Moment(picture.scene), picture.camera});
   next_rect_ = rect;
   return reuse;
+}
+
+Layer FrameMemory::motion(const PreparedPicture& picture) {
+  const RenderOptions& options = picture.options_of_picture;
+  const PixelRect rect = picture.region_of_picture();
+  const Camera camera(picture.view, options.width, options.height);
+  Layer layer{.name = enum_name(Aov::motion), .channels = {"X", "Y"}, .full_precision = true};
+  layer.values.assign(2 * rect.index(rect.x0, rect.y1), 0.0f);
+  if (view_of_picture_) {
+    const VisiblePoints points = trace_visible_points(*picture.world, camera, rect, &*view_of_picture_);
+    for (int y = rect.y0; y < rect.y1; ++y) {
+      for (int x = rect.x0; x < rect.x1; ++x) {
+        const std::size_t i = rect.index(x, y);
+        if (!points.earlier[i]) continue;
+        const Vec2& before = points.earlier[i]->pixel;
+        layer.values[2 * i] = static_cast<float>(x) + 0.5f - before.x();
+        layer.values[2 * i + 1] = before.y() - (static_cast<float>(y) + 0.5f);
+      }
+    }
+  }
+  view_of_picture_.emplace(EarlierView{Moment(picture.scene), camera});
+  return layer;
 }
 
 void FrameMemory::keep(const DenoisedRows& denoised, const Reuse& reuse) {

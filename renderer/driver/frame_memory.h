@@ -28,6 +28,8 @@ struct FrameMemory {
 
   /// The film's samples with the light of the frame before. For the caller's arena.
   Reuse reuse(const PreparedPicture& picture, const Film& film);
+  /// The layer of Aov::motion, and the view for that of the next frame. For the caller's arena.
+  Layer motion(const PreparedPicture& picture);
   /// Keeps the frame of the last reuse() for the next one.
   void keep(const DenoisedRows& denoised, const Reuse& reuse);
   /// Renderer::begin_frames().
@@ -42,6 +44,7 @@ struct FrameMemory {
  private:
   std::unique_ptr<EarlierView> next_view_;
   PixelRect next_rect_;
+  std::optional<EarlierView> view_of_picture_;  ///< of the last frame, in the picture's own pixels
 };
 
 /// Number of training steps of a frame after `change` of the light was found (cache/light_change.h). Zero of

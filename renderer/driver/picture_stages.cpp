@@ -94,6 +94,8 @@ FinishedPicture finish(const RenderContext& context, Film& film, bool stopped, R
       how.color = &reuse->color;
       how.keep = [&](const DenoisedRows& denoised) { memory->keep(denoised, *reuse); };
     }
+    if (memory && has(picture.options.aovs, Aov::motion))
+      how.motion = picture.arena.execute([&] { return memory->motion(picture); });
     finished = finished_picture(film, how, picture.arena);
     finished.picture.view = picture.camera.matrices(picture.scene.origin);
   }

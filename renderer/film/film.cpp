@@ -10,8 +10,8 @@ namespace gatelight::renderer {
 namespace {
 
 bool from_first_hit(Aov aov) {
-  constexpr Aov kOthers[] = {Aov::sample_count, Aov::variance, Aov::raw,
-                             Aov::error,        Aov::alpha,    Aov::denoising};
+  constexpr Aov kOthers[] = {Aov::sample_count, Aov::variance,  Aov::raw,   Aov::error,
+                             Aov::alpha,        Aov::denoising, Aov::motion};
   return !has(kOthers, aov);
 }
 

@@ -64,7 +64,10 @@ class Tracer {
 
   /// Returns whether the ray goes on.
   bool arrive(Walker& walker, const Hit& hit) {
-    if (!hit) return false;
+    if (!hit) {
+      if (earlier_ && walker.had_image) note_background(walker);
+      return false;
+    }
     const Vec3 direction = walker.ray.direction;
     walker.travelled += hit.t;
     const float width = walker.cone.width + walker.cone.spread * walker.travelled;
@@ -106,6 +109,14 @@ class Tracer {
     walker.ray.origin = surface.spawn(out);
     walker.ray.direction = out;
     return true;
+  }
+
+  /// The background is infinitely far away.
+  void note_background(const Walker& walker) {
+    constexpr float kFar = 1e7f;
+    const std::optional<Vec2> pixel =
+        earlier_->camera.pixel_of(walker.image * Vec3(walker.ray.origin + kFar * walker.ray.direction));
+    if (pixel) points_.earlier[walker.pixel] = EarlierPoint{.pixel = *pixel};
   }
 
   void note_earlier(const Walker& walker, const Hit& hit, bool turned) {

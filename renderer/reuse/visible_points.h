@@ -21,7 +21,7 @@ struct VisiblePoint {
   float lobe = 1.0f;              ///< radians: the width of that part
 };
 
-/// The point of the same surface at an earlier time.
+/// The point of the same surface at an earlier time. Of the background only the pixel is known.
 struct EarlierPoint {
   Vec2 pixel = Vec2::Zero();      ///< its place in the earlier picture, in pixels from the top left corner
   Vec3 position = Vec3::Zero();   ///< world

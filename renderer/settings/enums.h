@@ -60,6 +60,7 @@ enum class Aov : std::uint8_t {
   raw,        ///< the samples' mean
   error,      ///< estimated standard error of the picture
   denoising,  ///< the layers from which the picture can be denoised later (denoise/README.md)
+  motion,     ///< of the surface in the picture since the frame before: pixels, x to the right, y up
   // Outputs of the cache, at the vertex of its first query; black without one.
   cache_radiance,  ///< the picture that it gives without any further path
   cache_answer,    ///< its answer, before reflectance

@@ -1,0 +1,143 @@
+// Frames: one and ten thousand, times without keys, joints that collapse, vertices that leave the scene.
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+
+#include "renderer/render.h"
+#include "scene/gltf.h"
+#include "tests/extremes/extreme.h"
+#include "tests/support/animated_file.h"
+#include "tests/support/messages.h"
+
+namespace gatelight::scene {
+namespace {
+
+using renderer::Picture;
+using renderer::Renderer;
+using renderer::RenderOptions;
+using testing::report_extreme;
+
+RenderOptions small_frames() {
+  RenderOptions options;
+  options.width = 8;
+  options.height = 6;
+  options.spp = 1;
+  options.threads = 1;
+  options.environment.constant = Color::Ones();
+  return options;
+}
+
+/// A file that is open, with a renderer of its scene.
+struct Player {
+  explicit Player(AnimatedFile made)
+      : folder(),
+        file(made.write(folder), {.time = 0.0}),
+        scene(file.load()),
+        renderer(scene, small_frames()) {
+    renderer.begin_frames(0.0);
+  }
+
+  Picture frame(int number, double seconds) {
+    file.show(scene, seconds);
+    renderer.scene_moved({});
+    return renderer.render_frame(number);
+  }
+
+  tests::TemporaryFolder folder;
+  SceneFile file;
+  Scene scene;
+  Renderer renderer;
+};
+
+bool all_finite(const Picture& picture) {
+  const std::vector<float>& values = picture.layers.front().values;
+  return std::all_of(values.begin(), values.end(), [](float x) { return std::isfinite(x); });
+}
+
+double resident_mebibytes() {
+  std::ifstream file("/proc/self/statm");
+  double all = 0.0, resident = 0.0;  // pages
+  file >> all >> resident;
+  return resident * 4096.0 / 0x1p20;
+}
+
+/// A triangle that goes from x = 0 to x = 1 in a second.
+AnimatedFile going_triangle() {
+  AnimatedFile file = moving_triangle();
+  file.move(0, "translation", file.seconds({0, 1}), file.vectors({0, 0, 0, 1, 0, 0}));
+  return file;
+}
+
+TEST(FramesAtExtremes, OneAndTenThousand) {
+  constexpr int kFrames = 10'000;
+  Player player(going_triangle());
+  Picture first = player.frame(0, 0.0);
+  const double before = resident_mebibytes();
+  for (int i = 1; i < kFrames; ++i) ASSERT_TRUE(all_finite(player.frame(i, i / 24.0)));
+  EXPECT_LT(resident_mebibytes() - before, 20.0);
+  EXPECT_EQ(player.frame(0, 0.0).layers.front().values, first.layers.front().values);
+  report_extreme("number of frames", "1 and 10,000 of one file",
+                 "the first frame has the same bits after all the others",
+                 "a million: exit 1, at most 1,000,000");
+}
+
+TEST(FramesAtExtremes, TimesWithoutKeys) {
+  Player player(going_triangle());
+  const auto place = [&](double seconds) {
+    EXPECT_TRUE(all_finite(player.frame(0, seconds)));
+    return player.scene.instances.at(0).transform.translation().x();
+  };
+  EXPECT_EQ(place(-1e9), 0.0f);
+  EXPECT_EQ(place(1e9), 1.0f);
+  EXPECT_EQ(place(0.5), 0.5f) << "backwards";
+  EXPECT_EQ(place(-0.25), 0.0f);
+  AnimatedFile still = moving_triangle();
+  still.move(0, "translation", still.seconds({0}), still.vectors({3, 0, 0}));
+  Player of_no_time(still);
+  for (const double seconds : {-1.0, 0.0, 7.0}) {
+    EXPECT_TRUE(all_finite(of_no_time.frame(1, seconds)));
+    EXPECT_EQ(of_no_time.scene.instances.at(0).transform.translation().x(), 3.0f);
+  }
+  report_extreme("times", "-1e9 to 1e9 s, backwards; an animation of one key at 0 s",
+                 "the first key before it, the last one after it", "");
+}
+
+TEST(FramesAtExtremes, JointsThatCollapse) {
+  AnimatedFile file;
+  const int joint = file.node({{"translation", {0, 0, 0}}});
+  file.add("skins", {{"joints", {joint}}});
+  json primitive = file.triangle();
+  primitive["attributes"]["JOINTS_0"] =
+      file.accessor(std::vector<std::uint16_t>(12, 0), kUnsignedShort, "VEC4", 3);
+  primitive["attributes"]["WEIGHTS_0"] =
+      file.accessor(std::vector<float>{1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}, kFloat, "VEC4", 3);
+  file.node({{"mesh", file.mesh(primitive)}, {"skin", 0}});
+  file.move(joint, "scale", file.seconds({0, 1, 2, 3}),
+            file.vectors({1, 1, 1, 0, 0, 0, 1e-30f, 1, 1, -1, 1, 1}));
+  Player player(file);
+  for (const double seconds : {0.0, 0.5, 1.0, 1.5, 2.0, 3.0, 1.0}) {
+    EXPECT_TRUE(all_finite(player.frame(2, seconds))) << seconds;
+    for (const Vec3& p : player.scene.meshes.at(0).positions) EXPECT_TRUE(p.allFinite()) << seconds;
+  }
+  report_extreme("joints that collapse", "scales 1, 0, 1e-30, -1 in turn", "finite vertices and pictures",
+                 "");
+}
+
+TEST(FramesAtExtremes, VerticesThatLeaveTheScene) {
+  AnimatedFile file = moving_triangle();
+  file.move(0, "translation", file.seconds({0, 1, 2}), file.vectors({0, 0, 0, 9e8f, 0, 0, 1e12f, 0, 0}));
+  Player player(file);
+  EXPECT_TRUE(all_finite(player.frame(0, 0.0)));
+  EXPECT_TRUE(all_finite(player.frame(1, 1.0)));
+  tests::expect_refusal<InputError>([&] { player.file.show(player.scene, 2.0); }, {"1e+09"});
+  EXPECT_TRUE(all_finite(player.frame(3, 0.5))) << "the frames after it";
+  report_extreme("vertices that leave the scene", "a triangle at 0, 9e8 and 1e12 m", "9e8 m: finite pictures",
+                 "1e12 m: that frame fails, a vertex at ..., expected at most 1e+09 from the origin");
+}
+
+}  // namespace
+}  // namespace gatelight::scene
