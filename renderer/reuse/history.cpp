@@ -19,6 +19,9 @@ constexpr float kDarkest = 0.02f;
 /// along the surface this many.
 constexpr float kMostAcross = 1.0f, kMostAlong = 3.0f;
 constexpr float kLeastCosine = 0.9f;
+/// A change of the surface's colour makes carried light at most so many times as bright: the colour of a lamp
+/// says nothing about its light.
+constexpr float kBrightest = 3.0f;
 /// Share of what an edge takes over: the earlier picture mixes its surfaces in other parts.
 constexpr float kAtEdges = 0.0f;
 /// Pixels around, in each direction, whose probes are compared. Their light is the same up to the first
@@ -79,10 +82,8 @@ class Carrier {
 
   Reuse run() {
     carry();
-    if (!probes_.empty() && !history_.probes.empty()) {
-      compare_probes();
-      compare_samples();
-    }
+    if (!probes_.empty() && !history_.probes.empty()) compare_probes();
+    compare_samples();
     return blend();
   }
 
@@ -109,7 +110,7 @@ class Carrier {
     const float left = std::floor(x), top = std::floor(y), u = x - left, v = y - top;
     const PixelRect& r = history_.rect;
     Carried sum;
-    float weights = 0.0f;
+    float weights = 0.0f, brightest = 0.0f;
     for (int k = 0; k < 4; ++k) {
       const float px = left + static_cast<float>(k & 1), py = top + static_cast<float>(k >> 1);
       if (!(px >= static_cast<float>(r.x0) && px < static_cast<float>(r.x1) &&
@@ -119,6 +120,8 @@ class Carrier {
       if (!(history_.samples[there] > 0.0f) || !same_surface(history_.points[there], now, earlier)) continue;
       const float weight = ((k & 1) != 0 ? u : 1.0f - u) * ((k >> 1) != 0 ? v : 1.0f - v);
       weights += weight;
+      const float* const color = &history_.color[3 * there];
+      brightest += weight * std::max({color[0], color[1], color[2]});
       sum.samples += weight * history_.samples[there];
       if (!history_.probes.empty()) sum.probe += weight * history_.probes[there];
       for (int c = 0; c < 3; ++c) {
@@ -130,6 +133,7 @@ class Carrier {
     for (int c = 0; c < 3; ++c)
       sum.color[c] *= factor(albedo_[3 * i + static_cast<std::size_t>(c)]) / weights;
     sum.samples = std::min(sum.samples, kMostEarlier * samples(i)) * weights * same_gloss(now, earlier);
+    if (!(sum.color.maxCoeff() <= kBrightest * brightest / weights)) return {};
     sum.probe /= weights;
     if (is_edge(i)) sum.samples *= kAtEdges;
     return sum;

@@ -39,10 +39,10 @@ Vec3 mirrored(const Vec3& direction, const Vec3& normal) {
 
 /// How much of the light depends on the view, roughly: that of metals, coats and smooth dielectrics.
 void set_gloss(const SurfaceMaterial& m, VisiblePoint& point) {
-  constexpr float kOfDielectric = 0.5f, kSmooth = 0.35f, kOfLobe = 0.7f;
+  constexpr float kSmooth = 0.4f, kOfLobe = 0.7f;
   const bool coated = m.clearcoat > 0.1f;
   const float roughness = coated ? std::min(m.roughness, m.clearcoat_roughness) : m.roughness;
-  const float dielectric = coated || roughness < kSmooth ? kOfDielectric : 0.0f;
+  const float dielectric = coated || roughness < kSmooth ? 1.0f : 0.0f;
   point.glossy = std::max({m.metallic, m.transmission, dielectric});
   point.lobe = std::max(kOfLobe * roughness * roughness, 0.01f);
 }
