@@ -133,9 +133,9 @@ void FrameMemory::write(const PreparedPicture& picture, const std::filesystem::p
                    fingerprint, frame_content(status, light));
 }
 
-int steps_after_change(double change, int fresh_steps) {
+int steps_after_change(double change, int steps) {
   const double share = std::clamp((change - kUnchanged) / (kChanged - kUnchanged), 0.0, 1.0);
-  return static_cast<int>(std::lround(share * fresh_steps));
+  return static_cast<int>(std::lround(share * steps));
 }
 
 bool begins_anew(double change) {

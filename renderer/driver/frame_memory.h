@@ -47,11 +47,10 @@ struct FrameMemory {
   std::optional<EarlierView> view_of_picture_;  ///< of the last frame, in the picture's own pixels
 };
 
-/// Number of training steps of a frame after `change` of the light was found (cache/light_change.h). Zero of
-/// them for a cache that should begin anew is not possible: see begins_anew().
-int steps_after_change(double change, int fresh_steps);
+/// The part of `steps` that a frame trains because `change` of the light was found (cache/light_change.h).
+int steps_after_change(double change, int steps);
 
-/// Whether a cache that has learned another light is worth less than none.
+/// Whether a cache has learned so different a light that it is worth less than none.
 bool begins_anew(double change);
 
 }  // namespace gatelight::renderer

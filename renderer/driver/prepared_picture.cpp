@@ -81,7 +81,8 @@ std::string sky_warning(const scene::Scene& scene, const RenderOptions& options)
         glows(scene) ? " but surfaces that glow and light nothing" : "");
   }
   if (shows_light(options.integrator) && options.environment.none() && needs_light(scene)) {
-    return fmt::format("{} has no light, and the environment is 'none': the picture is black", scene.path);
+    return fmt::format("{} has no light, and the environment is 'none': {}", scene.path,
+                       glows(scene) ? "only what glows is visible" : "the picture is black");
   }
   return "";
 }

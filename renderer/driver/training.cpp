@@ -17,8 +17,10 @@ namespace {
 /// A cache of less steps is worse than none, so a time limit leaves at least these.
 constexpr std::uint64_t kLeastSteps = 16;
 
-/// Steps of each frame of an animation, the first of which show whether the light has changed.
-constexpr int kLookSteps = 32;
+/// Each frame of an animation trains this share of the steps of a cache that knows nothing, and at least these. Their
+/// paths are samples of the picture, and what is learned adds up over the frames (README.md).
+constexpr int kShareOfFresh = 2;
+constexpr int kLeastKept = 32;
 /// After a change of the light the optimiser learns as fast as after so many steps.
 constexpr std::uint32_t kMemoryAfterChange = 32;
 
@@ -135,19 +137,19 @@ void Training::train_on(Film& film) {
   before_learning_ = [&](const RecordBatch& group) {
     if (change < 0.0) change = session_->light_change(context_.picture.scene, group);
   };
-  const int look = std::min(kLookSteps, fresh_steps_);
-  train(look, film);
+  train(std::min(kLeastKept, fresh_steps_), film);
   before_learning_ = nullptr;
   light_change_ = std::max(change, 0.0);
-  const int more = steps_after_change(light_change_, fresh_steps_);
-  if (stopped_ || more == 0) return;
+  if (stopped_) return;
   if (begins_anew(light_change_)) {
     session_->start_anew(true);
     first_step_ = 0;
     return train(fresh_steps_, film);
   }
-  session_->forget_beyond(kMemoryAfterChange);
-  train(look + more, film);
+  const int usual = std::min(std::max(fresh_steps_ / kShareOfFresh, kLeastKept), fresh_steps_);
+  const int more = steps_after_change(light_change_, fresh_steps_ - usual);
+  if (more > 0) session_->forget_beyond(kMemoryAfterChange);
+  train(usual + more, film);
 }
 
 void Training::report(int done, double loss, double of_time) const {

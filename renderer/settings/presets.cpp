@@ -26,6 +26,10 @@ void set_finished(RenderOptions& options, int spp) {
 
 }  // namespace
 
+void spare_samples(RenderOptions& options) {
+  for (int* const samples : {&options.spp, &options.spp_of_paths}) *samples = (*samples + 1) / 2;
+}
+
 void apply_preset(CachePreset preset, RenderOptions& options) {
   CacheOptions& cache = options.cache;
   switch (preset) {

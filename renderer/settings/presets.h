@@ -20,4 +20,7 @@ enum class CachePreset : std::uint8_t {
 /// and the size of the picture. Other options stay.
 void apply_preset(CachePreset preset, RenderOptions& options);
 
+/// Halves the samples of a preset of finished pictures: frames of an animation share cache and light.
+void spare_samples(RenderOptions& options);
+
 }  // namespace gatelight::renderer
