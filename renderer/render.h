@@ -64,8 +64,7 @@ struct FrameStatus {
   std::optional<int> frame;       ///< the last one, whose light it has
   double layout_seconds = 0.0;    ///< time of the scene that the cache belongs to
   std::optional<float> exposure;  ///< of displayed frames, in stops
-  bool has_cache = false;
-  bool of_animation = false;  ///< else the scene is that of the file's nodes
+  bool of_animation = false;      ///< else the scene is that of the file's nodes
 };
 
 /// Throws CacheFileError.

@@ -87,7 +87,6 @@ FrameFile::FrameFile(const std::filesystem::path& path) : file_(path) {
   status_ = {.frame = number_of<int>(file_, kNumber),
              .layout_seconds = seconds.value_or(0.0),
              .exposure = number_of<float>(file_, kExposure),
-             .has_cache = !alone,
              .of_animation = seconds.has_value()};
 }
 

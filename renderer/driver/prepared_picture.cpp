@@ -159,7 +159,8 @@ WorldOptions PreparedPicture::world_options() const {
 void PreparedPicture::scene_moved(const CameraOptions& chosen) {
   const Clock::time_point start = Clock::now();
   if (scene.motion.any()) {
-    const LastingParts lasting = world->lasting;
+    // An earlier time that could not be shown may have left no world.
+    const LastingParts lasting = world ? world->lasting : LastingParts{};
     world.reset();
     arena.execute([&] { world.emplace(scene, world_options(), lasting); });
   }
