@@ -49,7 +49,6 @@ int RenderRun::render_frames(scene::SceneFile& file, scene::Scene& scene) {
   progress_.phase("build");
   const Clock::time_point begin = Clock::now();
   renderer::Renderer renderer(scene, settings_.render, group_.ranks);
-  note_integrator(renderer.integrator());
   if (whole_.render.choose_integrator) renderer::use_integrator(whole_.render, renderer.integrator());
   const std::size_t warnings_of_loading = report_.warnings.size();
   for (std::size_t i = begin_frames(file, scene, renderer, frames); i < frames.size(); ++i) {
@@ -130,8 +129,8 @@ int RenderRun::make_frame(scene::SceneFile& file, scene::Scene& scene, renderer:
   if (const int number = signal(); number != 0) return number;
   end_picture(std::move(picture), renderer.statistics());
   if (!whole_.exposure) whole_.exposure = report_.exposure;  // it holds for all frames
-  if (group_.ranks.first()) write_state(renderer, frame);
   if (!group_.ranks.first()) return 0;
+  write_state(renderer, frame);
   if (!progress_.frame_done(frame, summary_json(settings_, report_)) && !settings_.quiet) {
     progress_.clear();
     print_status(frame_line(frame, settings_, report_));
@@ -142,7 +141,7 @@ int RenderRun::make_frame(scene::SceneFile& file, scene::Scene& scene, renderer:
 void RenderRun::write_state(const renderer::Renderer& renderer, int frame) {
   const std::string& checkpoint = whole_.render.checkpoint.file;
   const std::string& cache = whole_.render.cache.cache_out;
-  const bool last = frame == whole_.frames.range->numbers().back();
+  const bool last = frame == whole_.frames.range->final();
   if (!checkpoint.empty()) renderer.write_frame(checkpoint, whole_.exposure);
   if (!cache.empty() && (has_frame_place(cache) || last))
     renderer.write_frame(name_of_frame(cache, frame), whole_.exposure);

@@ -15,6 +15,8 @@ struct FrameRange {
   int step = 1;  ///< negative: backwards
 
   std::vector<int> numbers() const;
+  /// The last of them.
+  int final() const { return first + (last - first) / step * step; }
 };
 
 struct FrameSettings {

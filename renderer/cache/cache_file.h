@@ -48,7 +48,6 @@ class CacheFile {
   /// `others`: the names of tensors that the file may have beside the cache.
   CacheState read_state(const neural::Model& model, const neural::TrainingOptions& options,
                         std::set<std::string> others = {});
-  SafetensorsReader& reader() { return file_; }
 
  private:
   SafetensorsReader file_;

@@ -83,8 +83,6 @@ Reuse FrameMemory::reuse(const PreparedPicture& picture, const Film& film) {
     for (const RadianceSum& pixel : film.sums().radiance)
       reuse.samples.push_back(static_cast<float>(pixel.count));
   }
-  next_view_ = std::make_unique<EarlierView>(EarlierView{Moment(picture.scene), picture.camera});
-  next_rect_ = rect;
   return reuse;
 }
 
@@ -110,9 +108,9 @@ Layer FrameMemory::motion(const PreparedPicture& picture) {
   return layer;
 }
 
-void FrameMemory::keep(const DenoisedRows& denoised, const Reuse& reuse) {
-  history = std::make_unique<History>(History{.view = std::move(*next_view_),
-                                              .rect = next_rect_,
+void FrameMemory::keep(const PreparedPicture& picture, const DenoisedRows& denoised, const Reuse& reuse) {
+  history = std::make_unique<History>(History{.view = {Moment(picture.scene), picture.camera},
+                                              .rect = picture.region,
                                               .points = reuse.points.now,
                                               .color = denoised.color,
                                               .albedo = denoised.albedo,

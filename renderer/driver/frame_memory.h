@@ -30,8 +30,8 @@ struct FrameMemory {
   Reuse reuse(const PreparedPicture& picture, const Film& film);
   /// The layer of Aov::motion, and the view for that of the next frame. For the caller's arena.
   Layer motion(const PreparedPicture& picture);
-  /// Keeps the frame of the last reuse() for the next one.
-  void keep(const DenoisedRows& denoised, const Reuse& reuse);
+  /// Keeps the frame for the next one.
+  void keep(const PreparedPicture& picture, const DenoisedRows& denoised, const Reuse& reuse);
   /// Renderer::begin_frames().
   void begin(const PreparedPicture& picture, DistributedTiles& tiles, double seconds,
              const std::filesystem::path& file);
@@ -42,8 +42,6 @@ struct FrameMemory {
              std::optional<float> exposure) const;
 
  private:
-  std::unique_ptr<EarlierView> next_view_;
-  PixelRect next_rect_;
   std::optional<EarlierView> view_of_picture_;  ///< of the last frame, in the picture's own pixels
 };
 

@@ -92,7 +92,7 @@ FinishedPicture finish(const RenderContext& context, Film& film, bool stopped, R
       reuse = picture.arena.execute([&] { return memory->reuse(picture, film); });
       statistics.reused = reuse->share;
       how.color = &reuse->color;
-      how.keep = [&](const DenoisedRows& denoised) { memory->keep(denoised, *reuse); };
+      how.keep = [&](const DenoisedRows& denoised) { memory->keep(picture, denoised, *reuse); };
     }
     if (memory && has(picture.options.aovs, Aov::motion))
       how.motion = picture.arena.execute([&] { return memory->motion(picture); });

@@ -24,6 +24,8 @@ TEST(FrameRange, ReadsFirstLastAndStep) {
   EXPECT_THAT(numbers("-2:5:3"), ElementsAre(-2, 1, 4));
   EXPECT_THAT(numbers("4:0:-2"), ElementsAre(4, 2, 0));
   EXPECT_EQ(numbers("0:9999").size(), 10'000u);
+  for (const char* text : {"3", "-2:5:3", "4:0:-3"})
+    EXPECT_EQ(parse_frames("--frames", text).final(), numbers(text).back()) << text;
   EXPECT_EQ(text_of(parse_frames("--frames", "-2:5:3")), "-2:5:3");
 }
 
