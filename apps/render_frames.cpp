@@ -24,7 +24,12 @@ renderer::CameraOptions camera_of_frame(const RenderSettings& settings, int fram
   renderer::CameraOptions camera = settings.render.camera;
   const int turn = settings.frames.turntable;
   // In double, and modulo a whole turn: the frames of the second turn are those of the first.
-  if (turn > 0) camera.turn = static_cast<float>(2.0 * M_PI * ((frame % turn + turn) % turn) / turn);
+  if (turn > 0) {
+    const ShutterRange& shutter = settings.frames.shutter;
+    const double each = 2.0 * M_PI / turn;
+    camera.turn = static_cast<float>(each * ((frame % turn + turn) % turn + shutter.middle()));
+    camera.turn_in_shutter = static_cast<float>(each * (shutter.closes - shutter.opens));
+  }
   return camera;
 }
 

@@ -51,7 +51,7 @@ int RenderRun::run() {
   for (const std::string& unused : unused_output_flags(settings_)) warn(unused);
   progress_.phase("load");
   const Clock::time_point start = Clock::now();
-  scene::SceneFile file(settings_.scene, settings_.load);
+  scene::SceneFile file(settings_.scene, load_options());
   scene::Scene scene = file.load();
   report_.load_seconds = seconds_since(start);
   note_loaded(scene);
@@ -62,6 +62,13 @@ int RenderRun::run() {
   log_detail(fmt::format("memory needed{}, estimated: {}", group_.ranks.is_single() ? "" : " by each rank",
                          format_bytes(memory)));
   return settings_.frames.range ? render_frames(file, scene) : render_stills(scene);
+}
+
+scene::LoadOptions RenderRun::load_options() const {
+  scene::LoadOptions options = settings_.load;
+  const FrameSettings& frames = settings_.frames;
+  if (!frames.range && options.time) *options.time += frames.shutter.middle() / frames.fps;
+  return options;
 }
 
 int RenderRun::render_stills(const scene::Scene& scene) {

@@ -24,6 +24,8 @@ class RenderRun {
   int run();
 
  private:
+  /// With the time of a still in the middle of its shutter.
+  scene::LoadOptions load_options() const;
   int render_stills(const scene::Scene& scene);
   int make_picture(renderer::Renderer& renderer);
   /// What follows a picture that is rendered. Throws where it ended badly; what is there was written.

@@ -29,6 +29,8 @@ struct LoadOptions {
   int scene = -1;       ///< index of the glTF scene; -1 means the file's default, or its first
   std::string variant;  ///< name of a KHR_materials_variants variant; empty means the default materials
   std::optional<double> time;  ///< seconds: the moment of the file's animations; none: the pose of its nodes
+  /// Seconds that a shutter is open, with `time` in the middle (Scene::shutter); 0: nothing is blurred.
+  double shutter = 0.0;
   /// Name of the animation that `time` shows, else its index. Empty: all of them together, but of those that
   /// animate the same value only the first.
   std::string animation;

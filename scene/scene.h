@@ -207,6 +207,36 @@ struct SceneMotion {
   bool any() const { return instances || lights || image_light || materials; }
 };
 
+/// The vertices of a deforming mesh at one time; see Mesh.
+struct DeformedVertices {
+  PaddedVector<Vec3> positions;
+  std::vector<Vec3> normals;
+  std::vector<Vec4> tangents;
+
+  friend bool operator==(const DeformedVertices&, const DeformedVertices&) = default;
+};
+
+/// The place of a punctual light at one time; see PunctualLight.
+struct LightPlace {
+  Vec3 position = Vec3::Zero();
+  Vec3 direction{0.0f, 0.0f, -1.0f};
+  Vec3 side{1.0f, 0.0f, 0.0f};
+
+  friend bool operator==(const LightPlace&, const LightPlace&) = default;
+};
+
+/// What moves while the shutter is open: a list by the scene's numbers, each with the state at some evenly
+/// spaced times, from the opening to the closing; between them it changes linearly (scene/shutter.h). The
+/// list of what stands still is empty. The scene itself is that of the middle. All else stands still there.
+struct ShutterMotion {
+  std::vector<std::vector<Affine>> transforms;          ///< of instances
+  std::vector<std::vector<DeformedVertices>> vertices;  ///< of meshes
+  std::vector<std::vector<LightPlace>> lights;
+  std::vector<std::vector<Camera>> cameras;
+  bool is_open = false;    ///< else all lists are empty
+  bool instances = false;  ///< some transforms or vertices change
+};
+
 struct Scene {
   std::string path;  ///< the loaded file
   std::vector<Image> images;
@@ -221,6 +251,7 @@ struct Scene {
   std::vector<std::string> variants;  ///< names of KHR_materials_variants
   std::vector<Animation> animations;  ///< all of the file, shown or not
   SceneMotion motion;
+  ShutterMotion shutter;
   std::vector<std::string> warnings;  ///< one line each, without duplicates
   /// World; empty when there is no triangle. Of the nodes' own pose where things move, so that choices by the
   /// scene's size hold at all times.

@@ -79,9 +79,12 @@ void complete_view(RenderSettings& settings) {
 void complete_frames(RenderSettings& settings) {
   FrameSettings& frames = settings.frames;
   if (frames.turntable > 0 && !frames.range) frames.range = FrameRange{0, frames.turntable - 1, 1};
+  settings.load.shutter = frames.shutter_seconds();
   if (!frames.range) {
-    if (settings.given.contains("--fps"))
+    if (settings.given.contains("--fps") && !frames.shutter.is_open())
       throw UsageError("--fps: there are no frames, expected --frames or --turntable with it");
+    if (frames.shutter.is_open() && !settings.load.time)
+      throw UsageError("--shutter: without a moment nothing moves, expected --time or --frames with it");
     return;
   }
   if (settings.load.time) throw UsageError("--time and --frames exclude each other, expected one of them");

@@ -65,6 +65,25 @@ std::string text_of(const FrameRange& range) {
   return text;
 }
 
+ShutterRange parse_shutter(const std::string& flag, const std::string& text) {
+  const std::size_t colon = text.find(':');
+  constexpr double kLongest = 1000.0;
+  const RealRange frames{-kLongest, kLongest};
+  ShutterRange shutter;
+  if (colon != std::string::npos) {
+    shutter.opens = parse_real(flag, text.substr(0, colon), frames);
+    shutter.closes = parse_real(flag, text.substr(colon + 1), frames);
+  }
+  if (!shutter.is_open())
+    throw UsageError(
+        fmt::format("{}: '{}', expected OPEN:CLOSE in frames, OPEN less than CLOSE", flag, text));
+  return shutter;
+}
+
+std::string text_of(const ShutterRange& shutter) {
+  return fmt::format("{}:{}", shutter.opens, shutter.closes);
+}
+
 bool has_frame_place(std::string_view name) {
   return std::regex_search(std::string(name.substr(name.find_last_of('/') + 1)), places());
 }

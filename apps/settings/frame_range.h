@@ -19,18 +19,33 @@ struct FrameRange {
   int final() const { return first + (last - first) / step * step; }
 };
 
+/// The shutter of a frame, in frames from its time.
+struct ShutterRange {
+  double opens = 0.0;
+  double closes = 0.0;
+
+  bool is_open() const { return closes > opens; }
+  double middle() const { return 0.5 * (opens + closes); }
+};
+
 struct FrameSettings {
   std::optional<FrameRange> range;
-  double fps = 24.0;  ///< frame n shows the time n / fps
+  double fps = 24.0;  ///< frame n shows the time n / fps, with a shutter that of its middle
   int turntable = 0;  ///< frames of a whole turn of the camera; 0: it stays
+  ShutterRange shutter;
 
   bool any() const { return range || turntable > 0; }
-  double seconds(int frame) const { return frame / fps; }
+  double seconds(double frame) const { return (frame + shutter.middle()) / fps; }
+  double shutter_seconds() const { return (shutter.closes - shutter.opens) / fps; }
 };
 
 /// Reads "A", "A:B" or "A:B:STEP". Throws UsageError, which names the flag.
 FrameRange parse_frames(const std::string& flag, const std::string& text);
 std::string text_of(const FrameRange& range);
+
+/// Reads "OPEN:CLOSE". Throws UsageError, which names the flag.
+ShutterRange parse_shutter(const std::string& flag, const std::string& text);
+std::string text_of(const ShutterRange& shutter);
 
 /// Whether the name holds the place of a frame's number: "%04d", "####" or "{frame}".
 bool has_frame_place(std::string_view name);

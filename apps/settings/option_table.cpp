@@ -61,9 +61,9 @@ Option by_hand(const char* name, std::optional<std::array<float, 3>>& member,
 }
 
 void add_load_options(OptionGroup& group, scene::LoadOptions& load) {
-  auto& [scene, variant, time, animation, missing_is_error, allow_external, ignored, show_hidden, back_faces,
-         lights, profiles, bake_transforms,
-         threads] = load;  // all transforms are baked; --threads of the picture sets the threads
+  // All transforms are baked; --shutter and --threads of the picture set the other two.
+  [[maybe_unused]] auto& [scene, variant, time, shutter, animation, missing_is_error, allow_external, ignored,
+                          show_hidden, back_faces, lights, profiles, bake_transforms, threads] = load;
   group.add(of_scene(number("scene-index", scene, kScenes, "N", "Which scene of the file; -1: its default")));
   group.add(common(of_scene(any_word("variant", variant, "NAME", "Material variant of the file, by name"))))
       .value = [&load] { return load.variant; };
@@ -116,7 +116,7 @@ void add_load_options(OptionGroup& group, scene::LoadOptions& load) {
 }
 
 void add_frame_options(OptionGroup& group, FrameSettings& frames) {
-  auto& [range, fps, turntable] = frames;
+  auto& [range, fps, turntable, shutter] = frames;
   const auto add = [&](Option option) {
     const auto value = std::move(option.value);
     option.value = [value, &range = range]() -> OptionValue { return range ? value() : OptionValue(); };
@@ -131,6 +131,16 @@ void add_frame_options(OptionGroup& group, FrameSettings& frames) {
   add(number("fps", fps, kFps, "N", "Frames of a second: frame n shows the time n / N"));
   add(number("turntable", turntable, kTurns, "N",
              "The camera goes around what it looks at, once in N frames; alone it renders these"));
+  group.add(not_in_sweep(
+      {.name = "shutter",
+       .unit = "OPEN:CLOSE",
+       .help = "Motion blur: the shutter is open from a frame's time plus OPEN to that plus CLOSE, both in "
+               "frames of --fps; -0.25:0.25 is a shutter of 180 degrees",
+       .value = [&shutter = shutter]() -> OptionValue {
+         return shutter.is_open() ? text_of(shutter) : OptionValue();
+       },
+       .read = [&shutter =
+                    shutter](const std::string& text) { shutter = parse_shutter("--shutter", text); }}));
 }
 
 Option preset_option(std::optional<CachePreset>& preset) {

@@ -95,8 +95,8 @@ void add_view_options(std::vector<Option>& table, renderer::CameraOptions& camer
   OptionGroup view{table, "Scene and view"};
   const auto add = [&](Option option) -> Option& { return view.add(std::move(option)); };
   // Flags of the application set look_at, frames set turn.
-  [[maybe_unused]] auto& [name, index, look_at, fov_degrees, focal_mm, projection, view_height, lens, turn] =
-      camera;
+  [[maybe_unused]] auto& [name, index, look_at, fov_degrees, focal_mm, projection, view_height, lens, turn,
+                          turn_in_shutter] = camera;
   add(common(of_view(
           any_word("camera", name, "NAME|INDEX",
                    "Camera of the file, by its name, its node's or its index (default: the first); all of "

@@ -25,6 +25,7 @@ CheckpointIdentity identity_of(const PreparedPicture& picture) {
   const std::vector<std::uint8_t> members = picture.world->light_groups.members();
   if (!members.empty())
     decisive.push_back({"lights-of-groups", hexadecimal(digest_of(std::as_bytes(std::span(members))))});
+  if (picture.scene.shutter.is_open) decisive.push_back({"shutter", shutter_digest(picture.scene)});
   return {decisive, picture.fingerprint(), picture.scene.instances.size()};
 }
 

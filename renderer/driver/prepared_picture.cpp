@@ -39,6 +39,10 @@ PixelRect region_of(const RenderOptions& options) {
   return {x0, y0, x1, y1};
 }
 
+float aspect_of(const RenderOptions& options) {
+  return static_cast<float>(options.width) / static_cast<float>(options.height);
+}
+
 std::size_t checked_budget(const scene::Scene& scene, const RenderOptions& options) {
   const MemoryEstimate need = estimate_memory(scene, options);
   require_memory(fmt::format("{}: rendering", scene.path), options, need.total(),
@@ -174,7 +178,7 @@ void PreparedPicture::begin_frame(int frame) {
 }
 
 View PreparedPicture::chosen_view(const CameraOptions& chosen) const {
-  return choose_camera(scene, chosen, static_cast<float>(options.width) / static_cast<float>(options.height));
+  return choose_camera(scene, chosen, aspect_of(options));
 }
 
 void PreparedPicture::set_camera(const CameraOptions& chosen) {
@@ -189,6 +193,7 @@ void PreparedPicture::set_camera(const CameraOptions& chosen) {
                     view.focus_distance, view.focus_distance);
   }
   camera = Camera(view, options.width, options.height);
+  if (scene.shutter.is_open) open_shutter();
   // Rays of an orthographic camera begin at many places.
   if (!view.orthographic) camera.set_around(volumes_around(*world, view.transform.translation()));
   statistics.warnings.clear();
@@ -198,6 +203,13 @@ void PreparedPicture::set_camera(const CameraOptions& chosen) {
         view_warning(*world, camera, options.width, options.height)}) {
     if (!warning.empty()) statistics.warnings.push_back(std::move(warning));
   }
+}
+
+void PreparedPicture::open_shutter() {
+  std::vector<Camera> states;
+  for (const View& moved : shutter_views(scene, options.camera, aspect_of(options), view))
+    states.emplace_back(moved, options.width, options.height);
+  camera.open_shutter(std::move(states));
 }
 
 CacheMeaning PreparedPicture::cache_meaning() const {

@@ -65,6 +65,7 @@ struct PreparedPicture {
  private:
   WorldOptions world_options() const;
   View chosen_view(const CameraOptions& chosen) const;
+  void open_shutter();
   /// Applies RenderOptions::choose_integrator, for the first view.
   void choose_integrator();
 

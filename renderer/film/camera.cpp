@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "renderer/sampling/warp.h"
+#include "scene/shutter.h"
 
 namespace gatelight::renderer {
 namespace {
@@ -86,6 +87,26 @@ CameraRay Camera::ray(float x, float y, const Vec2& lens) const {
   result.ray.origin = origin_ + offset;
   result.ray.direction = ((corner_ + right_ * x + down_ * y) * focus_distance_ - offset).normalized();
   result.cone = cone_;
+  return result;
+}
+
+void Camera::open_shutter(std::vector<Camera> states) {
+  has_shutter_ = true;
+  states_ = std::move(states);
+}
+
+CameraRay Camera::ray(float x, float y, const Vec2& lens, float time) const {
+  CameraRay result;
+  if (states_.empty()) {
+    result = ray(x, y, lens);
+  } else {
+    const auto around = scene::states_around(states_, time);
+    const CameraRay a = around.before.ray(x, y, lens), b = around.after.ray(x, y, lens);
+    result = a;
+    result.ray.origin = scene::between(a.ray.origin, b.ray.origin, around.fraction);
+    result.ray.direction = scene::between(a.ray.direction, b.ray.direction, around.fraction).normalized();
+  }
+  result.ray.time = time;
   return result;
 }
 

@@ -1,6 +1,8 @@
 #pragma once
 // Generates primary rays.
 
+#include <vector>
+
 #include "renderer/image/picture.h"
 #include "renderer/settings/view.h"
 #include "renderer/surface/media.h"
@@ -24,11 +26,18 @@ class Camera {
   const Interior& around() const { return around_; }
   void set_around(const Interior& around) { around_ = around; }
 
+  /// Rays get times from now on. `states`: of the camera, evenly spaced from the opening to the closing of
+  /// the shutter, or empty where it stands still.
+  void open_shutter(std::vector<Camera> states);
+  bool has_shutter() const { return has_shutter_; }
+
   bool has_lens() const { return lens_radius_ > 0.0f && focus_distance_ > 0.0f; }
   /// `x` and `y` are in pixels from the top left corner of the picture. `lens` in [0, 1)^2 is a point of the
   /// lens; that of a pinhole is ignored.
   CameraRay ray(float x, float y, const Vec2& lens) const;
-  /// The ray through the middle of the lens.
+  /// The same at a time of the open shutter, in [0, 1].
+  CameraRay ray(float x, float y, const Vec2& lens, float time) const;
+  /// The ray through the middle of the lens, in the middle of the shutter.
   CameraRay ray(float x, float y) const;
 
   /// The place in the picture, in pixels from its top left corner, that shows a point of the world; nothing
@@ -62,6 +71,8 @@ class Camera {
   int blades_;
   bool orthographic_;
   bool panorama_;
+  bool has_shutter_ = false;
+  std::vector<Camera> states_;  ///< of the open shutter
 };
 
 }  // namespace gatelight::renderer

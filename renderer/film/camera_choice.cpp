@@ -9,6 +9,7 @@
 #include "base/errors.h"
 #include "base/nearest_word.h"
 #include "renderer/film/framing.h"
+#include "scene/shutter.h"
 
 namespace gatelight::renderer {
 namespace {
@@ -62,8 +63,8 @@ std::string meant(const scene::Scene& scene, const std::string& name) {
 }
 
 /// A name of a camera wins over that of a node, both win over an index.
-const scene::Camera& find_named(const scene::Scene& scene, const std::string& name) {
-  const std::vector<scene::Camera>& cameras = scene.cameras;
+const scene::Camera& find_named(const scene::Scene& scene, const std::vector<scene::Camera>& cameras,
+                                const std::string& name) {
   for (std::string scene::Camera::*member : {&scene::Camera::name, &scene::Camera::node}) {
     const auto has_name = [&](const scene::Camera& camera) { return camera.*member == name; };
     const auto found = std::find_if(cameras.begin(), cameras.end(), has_name);
@@ -95,7 +96,8 @@ void require_near(const scene::Camera& camera, float aspect, const std::string& 
   }
 }
 
-scene::Camera find_camera(const scene::Scene& scene, const CameraOptions& options, float fov, float aspect) {
+scene::Camera find_camera(const scene::Scene& scene, const std::vector<scene::Camera>& cameras,
+                          const CameraOptions& options, float fov, float aspect) {
   scene::Camera camera;
   if (options.look_at) {
     camera.name = "look-at";
@@ -103,9 +105,9 @@ scene::Camera find_camera(const scene::Scene& scene, const CameraOptions& option
     camera.transform.translation() -= scene.origin;
     return camera;
   }
-  if (options.index) return scene.cameras.at(*options.index);
-  if (!options.name.empty()) return find_named(scene, options.name);
-  if (!scene.cameras.empty()) return scene.cameras.front();
+  if (options.index) return cameras.at(*options.index);
+  if (!options.name.empty()) return find_named(scene, cameras, options.name);
+  if (!cameras.empty()) return cameras.front();
   return frame_scene(scene, fov > 0.0f ? fov : camera.vertical_fov, aspect);
 }
 
@@ -195,11 +197,11 @@ void turn_around(const scene::Scene& scene, const CameraOptions& options, View& 
   view.transform = turn * view.transform;
 }
 
-}  // namespace
-
-View choose_camera(const scene::Scene& scene, const CameraOptions& options, float aspect) {
+/// `cameras`: those of the scene, perhaps at another time.
+View choose_camera(const scene::Scene& scene, const std::vector<scene::Camera>& cameras,
+                   const CameraOptions& options, float aspect) {
   const float fov = chosen_fov(options, aspect);
-  View view = find_camera(scene, options, fov, aspect);
+  View view = find_camera(scene, cameras, options, fov, aspect);
   if (fov > 0.0f) view.vertical_fov = fov;
   project(scene, options, view);
   require_near(view, aspect,
@@ -207,6 +209,33 @@ View choose_camera(const scene::Scene& scene, const CameraOptions& options, floa
   turn_around(scene, options, view);
   set_lens(scene, options.lens, aspect, view);
   return view;
+}
+
+}  // namespace
+
+View choose_camera(const scene::Scene& scene, const CameraOptions& options, float aspect) {
+  return choose_camera(scene, scene.cameras, options, aspect);
+}
+
+std::vector<View> shutter_views(const scene::Scene& scene, const CameraOptions& options, float aspect,
+                                const View& view) {
+  const std::vector<std::vector<scene::Camera>>& cameras = scene.shutter.cameras;
+  const bool any =
+      std::any_of(cameras.begin(), cameras.end(), [](const auto& states) { return !states.empty(); });
+  if (!scene.shutter.is_open || (!any && options.turn_in_shutter == 0.0f)) return {};
+  std::vector<View> views;
+  CameraOptions moved = options;
+  for (int key = 0; key < scene::kShutterKeys; ++key) {
+    const float time = static_cast<float>(key) / (scene::kShutterKeys - 1);
+    moved.turn = options.turn + (time - scene::kShutterMiddle) * options.turn_in_shutter;
+    std::vector<scene::Camera> states = scene.cameras;
+    for (std::size_t i = 0; i < states.size(); ++i) {
+      if (!cameras[i].empty()) states[i] = cameras[i][static_cast<std::size_t>(key)];
+    }
+    views.push_back(choose_camera(scene, states, moved, aspect));
+    views.back().focus_distance = view.focus_distance;
+  }
+  return views;
 }
 
 }  // namespace gatelight::renderer

@@ -81,6 +81,7 @@ namespace dimension {
 inline constexpr std::uint32_t kFilm = 0;
 inline constexpr std::uint32_t kLens = 0x80000000u;  ///< beyond those of all vertices
 inline constexpr std::uint32_t kWavelength = kLens + 1;
+inline constexpr std::uint32_t kTime = kLens + 2;
 inline constexpr std::uint32_t kFirstVertex = 1;
 inline constexpr std::uint32_t kPerVertex = 4;
 inline constexpr std::uint32_t kBsdfLobe = 0;
@@ -89,9 +90,12 @@ inline constexpr std::uint32_t kLightChoice = 2;
 inline constexpr std::uint32_t kLightPoint = 3;
 }  // namespace dimension
 
-/// The camera's ray through a point of the picture. Without a lens no lens point is sampled.
+/// The camera's ray through a point of the picture. Points of a lens and times of an open shutter are sampled
+/// where there are any.
 inline CameraRay camera_ray(const Camera& camera, float x, float y, const Sampler& sampler) {
-  return camera.has_lens() ? camera.ray(x, y, sampler.get_2d(dimension::kLens)) : camera.ray(x, y);
+  const Vec2 lens = camera.has_lens() ? sampler.get_2d(dimension::kLens) : Vec2(Vec2::Zero());
+  return camera.has_shutter() ? camera.ray(x, y, lens, sampler.get_1d(dimension::kTime))
+                              : camera.ray(x, y, lens);
 }
 
 }  // namespace gatelight::renderer

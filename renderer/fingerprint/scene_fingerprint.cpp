@@ -163,6 +163,35 @@ std::string file_digest(const std::string& path) {
   return hexadecimal(digest_file(path));
 }
 
+std::string shutter_digest(const scene::Scene& scene) {
+  const scene::ShutterMotion& shutter = scene.shutter;
+  if (!shutter.is_open) return "";
+  DigestRecord record;
+  const auto add_states = [&](const auto& lists, const auto& add) {
+    for (const auto& states : lists) {
+      record.add(std::uint64_t{states.size()});
+      for (const auto& state : states) add(state);
+    }
+  };
+  add_states(shutter.transforms, [&](const Affine& t) { add_numbers(record, t.matrix()); });
+  add_states(shutter.vertices, [&](const scene::DeformedVertices& v) {
+    add_array(record, v.positions);
+    add_array(record, v.normals);
+    add_array(record, v.tangents);
+  });
+  add_states(shutter.lights, [&](const scene::LightPlace& place) {
+    add_numbers(record, place.position);
+    add_numbers(record, place.direction);
+    add_numbers(record, place.side);
+  });
+  add_states(shutter.cameras, [&](const scene::Camera& camera) {
+    add_numbers(record, camera.transform.matrix());
+    record.add(camera.vertical_fov);
+    record.add(camera.half_height);
+  });
+  return hexadecimal(record.digest());
+}
+
 SceneFingerprint compute_scene_fingerprint(const scene::Scene& scene, const EnvironmentOptions& environment) {
   std::vector<MeshDigests> meshes(scene.meshes.size());
   std::vector<Digest> pixels(scene.images.size());

@@ -22,6 +22,9 @@ using SceneFingerprint = NamedTexts;
 /// environment's file, where it cannot be read.
 SceneFingerprint compute_scene_fingerprint(const scene::Scene& scene, const EnvironmentOptions& environment);
 
+/// 32 hexadecimal digits of the states of an open shutter, cameras included; empty for a closed one.
+std::string shutter_digest(const scene::Scene& scene);
+
 /// 32 hexadecimal digits of a file's content. Throws InputError where it cannot be read.
 std::string file_digest(const std::string& path);
 

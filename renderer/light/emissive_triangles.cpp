@@ -37,27 +37,29 @@ float quarter_footprint(const scene::Mesh& mesh, const scene::TextureSlot& slot,
   return std::sqrt(0.125f * std::abs(e1.x() * e2.y() - e1.y() * e2.x()));
 }
 
+/// `p`: the corners in the file's order.
+void place(const std::array<Vec3, 3>& p, const PlacementRounding& rounding, EmissiveTriangle& triangle) {
+  const Vec3 &second = p[triangle.mirrored ? 2 : 1], &third = p[triangle.mirrored ? 1 : 2];
+  triangle.corners = {p[0], second - p[0], third - p[0]};
+  float twice_area = 0.0f;
+  triangle.normal = scene::triangle_normal(p[0], second, third, twice_area);
+  // A triangle counts as degenerate if its area is not a normal float, which sampling needs.
+  triangle.area = std::isnormal(0.5f * twice_area) ? 0.5f * twice_area : 0.0f;
+  triangle.offset = rounding_offset(p[0], p[1], p[2], rounding);
+}
+
 EmissiveTriangle make_triangle(const scene::Scene& scene, std::uint32_t instance_index,
                                std::uint32_t primitive, const PlacementRounding& rounding) {
   const scene::Instance& instance = scene.instances[instance_index];
   const scene::Material& material = scene.material_of(instance);
-  const std::array<Vec3, 3> p = scene::world_triangle(scene, instance, primitive);
   EmissiveTriangle triangle;
   triangle.mirrored = instance.mirrors;
-  triangle.corners.corner = p[0];
-  triangle.corners.edge1 = p[instance.mirrors ? 2 : 1] - p[0];
-  triangle.corners.edge2 = p[instance.mirrors ? 1 : 2] - p[0];
   triangle.emission = material.emission;
   triangle.instance = instance_index;
   triangle.primitive = primitive;
   triangle.two_sided = material.double_sided;
   triangle.plain = !material.emission_texture && material.alpha_mode == scene::AlphaMode::opaque;
-  float twice_area = 0.0f;
-  triangle.normal =
-      scene::triangle_normal(p[0], p[instance.mirrors ? 2 : 1], p[instance.mirrors ? 1 : 2], twice_area);
-  // A triangle counts as degenerate if its area is not a normal float, which sampling needs.
-  triangle.area = std::isnormal(0.5f * twice_area) ? 0.5f * twice_area : 0.0f;
-  triangle.offset = rounding_offset(p[0], p[1], p[2], rounding);
+  place(scene::world_triangle(scene, instance, primitive), rounding, triangle);
   return triangle;
 }
 
@@ -69,6 +71,7 @@ EmissiveTriangles::EmissiveTriangles(const scene::Scene& scene, const Textures& 
     const scene::Material& material = scene.material_of(scene.instances[i]);
     if (!material.emits() || material.unlit || scene.instances[i].hidden) continue;
     first_[i] = static_cast<std::uint32_t>(triangles_.size());
+    moves_ |= scene::is_blurred(scene, i);
     const PlacementRounding rounding(scene.instances[i]);
     const std::size_t count = scene.mesh_of(scene.instances[i]).triangles.size();
     for (std::uint32_t primitive = 0; primitive < count; ++primitive) {
@@ -79,6 +82,14 @@ EmissiveTriangles::EmissiveTriangles(const scene::Scene& scene, const Textures& 
   tbb::parallel_for(std::size_t{0}, triangles_.size(),
                     [this](std::size_t i) { intensities_[i] = estimate_intensity(triangles_[i]); });
   find_duplicates();
+}
+
+EmissiveTriangle EmissiveTriangles::moved_to(const EmissiveTriangle& triangle, float time) const {
+  EmissiveTriangle moved = triangle;
+  if (!scene::is_blurred(scene_, triangle.instance)) return moved;
+  place(scene::world_triangle_at(scene_, triangle.instance, triangle.primitive, time),
+        PlacementRounding(scene_.instances[triangle.instance]), moved);
+  return moved;
 }
 
 // A ray meets only one of several triangles in the same place, so only the first is sampled. The others have

@@ -8,6 +8,7 @@
 #include "renderer/light/triangle_sampling.h"
 #include "renderer/surface/texture.h"
 #include "scene/scene.h"
+#include "scene/shutter.h"
 
 namespace gatelight::renderer {
 
@@ -34,6 +35,16 @@ class EmissiveTriangles {
   std::size_t size() const { return triangles_.size(); }
   const EmissiveTriangle& operator[](std::size_t i) const { return triangles_[i]; }
 
+  /// The triangle at a time of the shutter. `moved` is the memory of one that moves.
+  const EmissiveTriangle& at(std::size_t i, float time, EmissiveTriangle& moved) const {
+    if (!moves_) return triangles_[i];
+    moved = moved_to(triangles_[i], time);
+    return moved;
+  }
+  bool moves(std::size_t i) const { return moves_ && scene::is_blurred(scene_, triangles_[i].instance); }
+  /// Whether any moves while the shutter is open.
+  bool any_moves() const { return moves_; }
+
   /// The luminance of the radiant intensity along the normal in W/sr, by which lights are chosen. It is zero
   /// for degenerate triangles, for triangles with a black texture, and for all but the first of several in
   /// the same place. It is above zero for all others that emit.
@@ -58,11 +69,13 @@ class EmissiveTriangles {
  private:
   Color textured_radiance(const EmissiveTriangle& triangle, const Vec2& barycentrics, float footprint,
                           bool cut_alpha) const;
+  EmissiveTriangle moved_to(const EmissiveTriangle& triangle, float time) const;
   double estimate_intensity(const EmissiveTriangle& triangle) const;
   void find_duplicates();
 
   const scene::Scene& scene_;
   const Textures& textures_;
+  bool moves_ = false;
   std::vector<EmissiveTriangle> triangles_;
   std::vector<double> intensities_;   ///< after construction only the tree's builder reads them
   std::vector<std::uint32_t> first_;  ///< for each instance the index of its first triangle, or kNone

@@ -80,6 +80,26 @@ struct Share {
   }
 };
 
+/// Bounds of a light over the states of an open shutter. `bounds`: in the middle.
+LightBounds swept(LightBounds bounds, const std::vector<LightBounds>& states) {
+  Box box(bounds.centre);
+  for (const LightBounds& state : states) box.extend(state.centre);
+  bounds.centre = box.center();
+  bounds.radius = 0.0f;
+  // The normals of a triangle between two states may lie a little outside the arc between theirs.
+  constexpr float kBetween = 0.05f;
+  float half_angle = 0.0f;
+  for (const LightBounds& state : states) {
+    bounds.radius = std::max(bounds.radius, (state.centre - bounds.centre).norm() + state.radius);
+    const float cosine = bounds.axis.dot(state.axis);
+    const float turn = std::acos(std::clamp(bounds.two_sided ? std::abs(cosine) : cosine, -1.0f, 1.0f));
+    half_angle =
+        std::max(half_angle, turn + std::acos(std::clamp(state.cos_normals, -1.0f, 1.0f)) + kBetween);
+  }
+  bounds.cos_normals = half_angle < kPi ? std::cos(half_angle) : -1.0f;
+  return bounds;
+}
+
 bool shines(const PunctualLight& light) {
   return light.intensity.isFinite().all() && luminance(light.intensity) > 0.0f;
 }
@@ -89,9 +109,18 @@ bool shines(const PunctualLight& light) {
 Lights::Lights(const scene::Scene& scene, const Textures& textures, const Environment& environment,
                LightSelection selection)
     : environment_(environment), triangles_(scene, textures) {
-  for (const PunctualLight& light : scene.lights) {
-    if (shines(light)) (light.type == LightType::directional ? distant_ : placed_).push_back(light);
+  const scene::ShutterMotion& shutter = scene.shutter;
+  bool any_moves = false;
+  for (std::size_t i = 0; i < scene.lights.size(); ++i) {
+    const PunctualLight& light = scene.lights[i];
+    if (!shines(light)) continue;
+    const bool distant = light.type == LightType::directional;
+    (distant ? distant_ : placed_).push_back(light);
+    if (distant || !shutter.is_open) continue;
+    placed_states_.push_back(shutter.lights[i]);
+    any_moves |= !shutter.lights[i].empty();
   }
+  if (!any_moves) placed_states_.clear();
   if (const std::optional<DistantSun>& sun = environment.distant_sun()) {
     distant_.push_back({.name = "sun",
                         .type = LightType::directional,
@@ -101,13 +130,45 @@ Lights::Lights(const scene::Scene& scene, const Textures& textures, const Enviro
   std::vector<LightBounds> bounds;
   bounds.reserve(triangles_.size() + placed_.size());
   for (std::size_t i = 0; i < triangles_.size(); ++i) {
-    bounds.push_back(bounds_of(triangles_[i], triangles_.intensity(i)));
+    bounds.push_back(bounds_of_triangle(i));
     if (bounds.back().intensity > 0.0) ++emissive_count_;
   }
-  for (const PunctualLight& light : placed_) bounds.push_back(bounds_of(light));
+  for (std::size_t i = 0; i < placed_.size(); ++i) bounds.push_back(bounds_of_placed(i));
   local_ = Local(bounds, selection);
   bounds.erase(bounds.begin(), bounds.begin() + static_cast<std::ptrdiff_t>(triangles_.size()));
   local_placed_ = Local(bounds, selection);
+}
+
+LightBounds Lights::bounds_of_triangle(std::size_t number) const {
+  const double intensity = triangles_.intensity(number);
+  const LightBounds middle = bounds_of(triangles_[number], intensity);
+  if (!(intensity > 0.0) || !triangles_.moves(number)) return middle;
+  std::vector<LightBounds> states;
+  for (int key = 0; key < scene::kShutterKeys; ++key) {
+    EmissiveTriangle moved;
+    const float time = static_cast<float>(key) / (scene::kShutterKeys - 1);
+    states.push_back(bounds_of(triangles_.at(number, time, moved), intensity));
+  }
+  return swept(middle, states);
+}
+
+LightBounds Lights::bounds_of_placed(std::size_t number) const {
+  const LightBounds middle = bounds_of(placed_[number]);
+  if (placed_states_.empty() || placed_states_[number].empty()) return middle;
+  std::vector<LightBounds> states;
+  for (int key = 0; key < scene::kShutterKeys; ++key)
+    states.push_back(bounds_of(placed_at(number, static_cast<float>(key) / (scene::kShutterKeys - 1))));
+  return swept(middle, states);
+}
+
+PunctualLight Lights::placed_at(std::size_t number, float time) const {
+  PunctualLight light = placed_[number];
+  if (placed_states_[number].empty()) return light;
+  const scene::LightPlace place = scene::light_at(placed_states_[number], time);
+  light.position = place.position;
+  light.direction = place.direction;
+  light.side = place.side;
+  return light;
 }
 
 Lights::Local::Local(const std::vector<LightBounds>& lights, LightSelection selection) {
@@ -150,7 +211,7 @@ bool Lights::samples_sky(int other_parts) const {
   return !environment_.black() && !(environment_.constant() && other_parts > 0);
 }
 
-LightSample Lights::sample(const Vec3& p, const Vec3& n, float u_select, const Vec2& u) const {
+LightSample Lights::sample(const Vec3& p, const Vec3& n, float u_select, const Vec2& u, float time) const {
   LightTree::Weights root{};
   const bool local = local_.reaches(p, n, root);
   const int distant = count_distant(n);
@@ -160,22 +221,23 @@ LightSample Lights::sample(const Vec3& p, const Vec3& n, float u_select, const V
     const LightTree::Choice choice = local_.sample(root, p, n, share.rest);
     const float probability = choice.probability * share.size;
     if (!(probability > 0.0f)) return {};
-    if (choice.light < triangles_.size()) return sample_triangle(p, choice.light, probability, u);
-    return sample_placed(p, choice.light - triangles_.size(), probability);
+    if (choice.light < triangles_.size()) return sample_triangle(p, choice.light, probability, u, time);
+    return sample_placed(p, choice.light - triangles_.size(), probability, time);
   }
   const int number = share.part - (local ? 1 : 0);
   if (sky && number == distant) return sample_environment(n, share.size, u);
   return sample_distant(n, share.size, number);
 }
 
-LightSample Lights::sample_delta(const Vec3& p, const Vec3& n, float u_select, const Vec2& u) const {
+LightSample Lights::sample_delta(const Vec3& p, const Vec3& n, float u_select, const Vec2& u,
+                                 float time) const {
   LightTree::Weights root{};
   const bool local = local_placed_.reaches(p, n, root);
   const Share share((local ? 1 : 0) + count_distant(n), u_select, u);
   if (!local || share.part > 0) return sample_distant(n, share.size, share.part - (local ? 1 : 0));
   const LightTree::Choice choice = local_placed_.sample(root, p, n, share.rest);
   const float probability = choice.probability * share.size;
-  return probability > 0.0f ? sample_placed(p, choice.light, probability) : LightSample{};
+  return probability > 0.0f ? sample_placed(p, choice.light, probability, time) : LightSample{};
 }
 
 LightSample Lights::sample_distant(const Vec3& n, float choice, int number) const {
@@ -189,8 +251,10 @@ LightSample Lights::sample_distant(const Vec3& n, float choice, int number) cons
   return {};
 }
 
-LightSample Lights::sample_triangle(const Vec3& p, std::uint32_t light, float choice, const Vec2& u) const {
-  const EmissiveTriangle& triangle = triangles_[light];
+LightSample Lights::sample_triangle(const Vec3& p, std::uint32_t light, float choice, const Vec2& u,
+                                    float time) const {
+  EmissiveTriangle moved;
+  const EmissiveTriangle& triangle = triangles_.at(light, time, moved);
   const TriangleCorners t = seen_from(p, triangle);
   const TrianglePoint point = sample_triangle_point(t, triangle.area, u);
   const Vec3 to_light = t.corner + point.barycentrics.x() * t.edge1 + point.barycentrics.y() * t.edge2;
@@ -210,8 +274,13 @@ LightSample Lights::sample_triangle(const Vec3& p, std::uint32_t light, float ch
   return sample;
 }
 
-LightSample Lights::sample_placed(const Vec3& p, std::size_t number, float choice) const {
-  const PunctualLight& light = placed_[number];
+LightSample Lights::sample_placed(const Vec3& p, std::size_t number, float choice, float time) const {
+  if (placed_states_.empty()) return sample_placed(p, number, choice, placed_[number]);
+  return sample_placed(p, number, choice, placed_at(number, time));
+}
+
+LightSample Lights::sample_placed(const Vec3& p, std::size_t number, float choice,
+                                  const PunctualLight& light) const {
   const Vec3 to_light = light.position - p;
   LightSample sample;
   sample.distance = to_light.norm();
@@ -252,10 +321,11 @@ float Lights::pdf_local(const Vec3& p, const Vec3& n, std::uint32_t light) const
 }
 
 float Lights::pdf_triangle(const Vec3& p, const Vec3& n, std::uint32_t instance, std::uint32_t primitive,
-                           const Vec3& wi, float distance) const {
+                           const Vec3& wi, float distance, float time) const {
   const std::uint32_t light = triangles_.find(instance, primitive);
   if (light == EmissiveTriangles::kNone || local_.empty()) return 0.0f;
-  const EmissiveTriangle& triangle = triangles_[light];
+  EmissiveTriangle moved;
+  const EmissiveTriangle& triangle = triangles_.at(light, time, moved);
   if (!(triangle.area > 0.0f)) return 0.0f;
   const float cosine = cos_emitted(triangle, wi);
   if (!(cosine > 0.0f)) return 0.0f;

@@ -38,21 +38,27 @@ class Lights {
   bool empty() const { return local_.empty() && distant_.empty() && environment_.black(); }
 
   /// Samples a direction towards a light. `n` is the shading normal on the side of the viewer, or zero where
-  /// light may arrive from all sides (transmission).
-  LightSample sample(const Vec3& p, const Vec3& n, float u_select, const Vec2& u) const;
+  /// light may arrive from all sides (transmission). `time` is one of the shutter, in [0, 1]; directional
+  /// lights stand still in it.
+  LightSample sample(const Vec3& p, const Vec3& n, float u_select, const Vec2& u,
+                     float time = scene::kShutterMiddle) const;
 
   /// Whether there are point, spot or directional lights.
   bool has_delta() const { return !placed_.empty() || !distant_.empty(); }
   /// Like sample(), for only these lights, which BSDF sampling never finds. The pdf is the probability of the
   /// choice.
-  LightSample sample_delta(const Vec3& p, const Vec3& n, float u_select, const Vec2& u) const;
+  LightSample sample_delta(const Vec3& p, const Vec3& n, float u_select, const Vec2& u,
+                           float time = scene::kShutterMiddle) const;
 
   /// The pdf with which sample(p, n) returns the direction wi that hit this triangle at `distance`. 0 if the
   /// triangle does not emit to that side. For multiple importance sampling.
   float pdf_triangle(const Vec3& p, const Vec3& n, std::uint32_t instance, std::uint32_t primitive,
-                     const Vec3& wi, float distance) const;
+                     const Vec3& wi, float distance, float time = scene::kShutterMiddle) const;
   /// The same for a direction that leaves the scene.
   float pdf_environment(const Vec3& p, const Vec3& n, const Vec3& wi) const;
+
+  /// Whether lights with a position move while the shutter is open.
+  bool moves() const { return triangles_.any_moves() || !placed_states_.empty(); }
 
   /// The number of triangles that can be chosen: not degenerate, not black.
   std::size_t emissive_triangles() const { return emissive_count_; }
@@ -86,9 +92,15 @@ class Lights {
   };
 
   float pdf_local(const Vec3& p, const Vec3& n, std::uint32_t light) const;
-  LightSample sample_triangle(const Vec3& p, std::uint32_t light, float choice, const Vec2& u) const;
+  LightSample sample_triangle(const Vec3& p, std::uint32_t light, float choice, const Vec2& u,
+                              float time) const;
   /// `number` is the index in placed_.
-  LightSample sample_placed(const Vec3& p, std::size_t number, float choice) const;
+  LightSample sample_placed(const Vec3& p, std::size_t number, float choice, float time) const;
+  LightSample sample_placed(const Vec3& p, std::size_t number, float choice,
+                            const scene::PunctualLight& light) const;
+  LightBounds bounds_of_triangle(std::size_t number) const;
+  LightBounds bounds_of_placed(std::size_t number) const;
+  scene::PunctualLight placed_at(std::size_t number, float time) const;
   /// Samples the directional light with this number among those above the horizon of n.
   LightSample sample_distant(const Vec3& n, float choice, int number) const;
   LightSample sample_environment(const Vec3& n, float choice, const Vec2& u) const;
@@ -102,8 +114,10 @@ class Lights {
   EmissiveTriangles triangles_;
   std::vector<scene::PunctualLight> placed_;   ///< point and spot lights
   std::vector<scene::PunctualLight> distant_;  ///< directional lights
-  Local local_;                                ///< the triangles, and then placed_
-  Local local_placed_;                         ///< only placed_
+  /// States of placed_ in an open shutter; empty if all stand still.
+  std::vector<std::vector<scene::LightPlace>> placed_states_;
+  Local local_;         ///< the triangles, and then placed_
+  Local local_placed_;  ///< only placed_
   std::size_t emissive_count_ = 0;
 };
 

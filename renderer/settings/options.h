@@ -50,6 +50,7 @@ struct CameraOptions {
   LensOptions lens;
   float turn =
       0.0f;  ///< radians by which the camera goes around what it looks at, seen from above to the left
+  float turn_in_shutter = 0.0f;  ///< radians of that way that it goes while the shutter is open
 };
 
 /// Number of samples per pixel which means that something else ends the picture.

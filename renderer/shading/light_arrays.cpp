@@ -12,7 +12,7 @@ void append(std::vector<float>& to, const auto& vector) {
 }  // namespace
 
 LightArrays::LightArrays(const Lights& lights)
-    : usable_(lights.tree() != nullptr), placed_tree_(lights.placed_tree()) {
+    : usable_(lights.tree() != nullptr && !lights.moves()), placed_tree_(lights.placed_tree()) {
   if (!usable_) return;
   view_.tree = lights.tree()->node_numbers();
   view_.nearest2 = lights.tree()->nearest2();

@@ -15,7 +15,8 @@ class LightArrays {
   LightArrays(const LightArrays&) = delete;
   LightArrays& operator=(const LightArrays&) = delete;
 
-  /// Null where the kernels do not support the selection of lights.
+  /// Null where the kernels do not support the selection of lights, or lights that move while the shutter is
+  /// open.
   const LightView* view() const { return usable_ ? &view_ : nullptr; }
   /// The view of the lights of Lights::sample_delta. view() must not be null.
   LightView delta_view() const;

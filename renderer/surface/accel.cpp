@@ -101,7 +101,7 @@ void set_ray(RTCRay16& packet, unsigned i, const Ray& ray) {
   packet.dir_z[i] = ray.direction.z();
   packet.tnear[i] = 0.0f;
   packet.tfar[i] = ray.t_max;
-  packet.time[i] = 0.0f;
+  packet.time[i] = ray.time;
   packet.mask[i] = ~0u;
   packet.id[i] = i;
   packet.flags[i] = 0;
@@ -164,11 +164,22 @@ struct Accel::State {
     return s;
   }
 
-  /// A mesh with the filters that the coverage of the instance needs.
-  RTCGeometry new_mesh(const scene::Mesh& mesh, const Coverage& coverage, std::uint32_t instance) {
+  static void set_positions(RTCGeometry geometry, unsigned step, const PaddedVector<Vec3>& positions) {
+    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, step, RTC_FORMAT_FLOAT3, positions.data(), 0,
+                               sizeof(Vec3), positions.size());
+  }
+
+  /// A mesh with the filters that the coverage of the instance needs. `states`: of an open shutter, or empty.
+  RTCGeometry new_mesh(const scene::Mesh& mesh, const Coverage& coverage, std::uint32_t instance,
+                       const std::vector<scene::DeformedVertices>& states = {}) {
     RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, mesh.positions.data(),
-                               0, sizeof(Vec3), mesh.positions.size());
+    if (states.empty()) {
+      set_positions(geometry, 0, mesh.positions);
+    } else {
+      rtcSetGeometryTimeStepCount(geometry, static_cast<unsigned>(states.size()));
+      for (unsigned step = 0; step < states.size(); ++step)
+        set_positions(geometry, step, states[step].positions);
+    }
     rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, mesh.triangles.data(), 0,
                                sizeof(mesh.triangles[0]), mesh.triangles.size());
     if (coverage.tests_alpha(instance) || coverage.culls_backs(instance)) {
@@ -182,20 +193,34 @@ struct Accel::State {
     return geometry;
   }
 
+  static void set_transform(RTCGeometry geometry, unsigned step, const Affine& transform) {
+    rtcSetGeometryTransform(geometry, step, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, transform.data());
+  }
+
   /// The mesh of the instance, placed. It is built once for all instances.
   RTCGeometry new_instance(const scene::Scene& scene, const Coverage& coverage, std::uint32_t i) {
     const scene::Instance& instance = scene.instances[i];
-    RTCScene& below = meshes[static_cast<std::size_t>(instance.mesh)];
+    const scene::ShutterMotion& shutter = scene.shutter;
+    const auto mesh = static_cast<std::size_t>(instance.mesh);
+    RTCScene& below = meshes[mesh];
     if (!below) {
       below = new_scene();
-      RTCGeometry child = new_mesh(scene.mesh_of(instance), coverage, i);
+      RTCGeometry child = shutter.instances
+                              ? new_mesh(scene.meshes[mesh], coverage, i, shutter.vertices[mesh])
+                              : new_mesh(scene.meshes[mesh], coverage, i);
       rtcAttachGeometry(below, child);
       rtcReleaseGeometry(child);
       rtcCommitScene(below);
     }
     RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE);
     rtcSetGeometryInstancedScene(geometry, below);
-    rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, instance.transform.data());
+    if (shutter.instances && !shutter.transforms[i].empty()) {
+      const std::vector<Affine>& states = shutter.transforms[i];
+      rtcSetGeometryTimeStepCount(geometry, static_cast<unsigned>(states.size()));
+      for (unsigned step = 0; step < states.size(); ++step) set_transform(geometry, step, states[step]);
+    } else {
+      set_transform(geometry, 0, instance.transform);
+    }
     rtcCommitGeometry(geometry);
     return geometry;
   }
@@ -323,6 +348,7 @@ void Accel::intersect(std::span<const Ray> rays, std::span<Hit> hits, bool coher
       hit.u = packet.hit.u[i];
       hit.v = packet.hit.v[i];
       hit.primitive = packet.hit.primID[i];
+      hit.time = packet.ray.time[i];
       hit.instance = instance_of(packet.hit.instID[0][i], packet.hit.geomID[i]);
     }
   });

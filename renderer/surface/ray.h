@@ -14,6 +14,7 @@ struct Ray {
   float t_max = kInfinity;
   Vec3 direction{0.0f, 0.0f, -1.0f};  ///< unit
   std::uint32_t seed = 0;             ///< for the stochastic alpha test; equal seeds meet equal surfaces
+  float time = 0.5f;                  ///< of the shutter (scene/shutter.h)
 };
 
 struct Hit {
@@ -22,6 +23,7 @@ struct Hit {
   float v = 0.0f;  ///< barycentric weight of the triangle's third corner
   std::uint32_t instance = kNoInstance;
   std::uint32_t primitive = 0;
+  float time = 0.5f;  ///< of the ray
 
   explicit operator bool() const { return instance != kNoInstance; }
 };

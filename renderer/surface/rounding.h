@@ -16,11 +16,19 @@ struct PlacementRounding {
 
   PlacementRounding() = default;
   explicit PlacementRounding(const scene::Instance& instance) {
-    if (instance.baked) return;
-    translation = instance.transform.translation().cwiseAbs().maxCoeff();
-    const Eigen::Matrix3f linear = instance.transform.linear();
+    if (!instance.baked) *this = PlacementRounding(instance.transform);
+  }
+  explicit PlacementRounding(const Affine& transform) {
+    translation = transform.translation().cwiseAbs().maxCoeff();
+    const Eigen::Matrix3f linear = transform.linear();
     const Vec3 singular = linear.jacobiSvd().singularValues();
     condition = singular.z() > 0.0f ? std::min(singular.x() / singular.z(), 1e4f) : 1.0f;
+  }
+
+  /// Bounds the rounding of both.
+  void extend(const PlacementRounding& other) {
+    translation = std::max(translation, other.translation);
+    condition = std::max(condition, other.condition);
   }
 };
 

@@ -195,7 +195,55 @@ Surfaces::Surfaces(const scene::Scene& scene, const Textures& textures) : textur
       view.normal_matrix = normal_matrix(instance.transform);
       view.rounding = PlacementRounding(instance);
     }
+    if (scene::is_blurred(scene, i))
+      open_shutter(scene.shutter, i, static_cast<std::size_t>(instance.mesh), view);
   }
+}
+
+void Surfaces::open_shutter(const scene::ShutterMotion& shutter, std::size_t instance, std::size_t mesh,
+                            View& view) {
+  if (!shutter.vertices[mesh].empty()) view.vertices = &shutter.vertices[mesh];
+  if (shutter.transforms[instance].empty()) return;
+  view.transforms = &shutter.transforms[instance];
+  for (const Affine& transform : *view.transforms) view.rounding.extend(PlacementRounding(transform));
+}
+
+Surfaces::View Surfaces::View::at(float shutter_time) const {
+  View moved = *this;
+  moved.time = shutter_time;
+  if (transforms) {
+    moved.transform = scene::transform_at(*transforms, shutter_time);
+    moved.normal_matrix = gatelight::normal_matrix(moved.transform);
+  }
+  return moved;
+}
+
+namespace {
+
+/// A vertex attribute at a time of the shutter.
+template <typename Vector>
+auto attribute_at(const std::vector<scene::DeformedVertices>& states, float time, std::uint32_t vertex,
+                  Vector scene::DeformedVertices::*attribute) {
+  const auto around = scene::states_around(states, time);
+  return scene::between((around.before.*attribute)[vertex], (around.after.*attribute)[vertex],
+                        around.fraction);
+}
+
+}  // namespace
+
+Vec3 Surfaces::View::position(std::uint32_t vertex) const {
+  return vertices ? attribute_at(*vertices, time, vertex, &scene::DeformedVertices::positions)
+                  : mesh->positions[vertex];
+}
+
+Vec3 Surfaces::View::normal(std::uint32_t vertex) const {
+  return vertices ? attribute_at(*vertices, time, vertex, &scene::DeformedVertices::normals)
+                  : mesh->normals[vertex];
+}
+
+Vec4 Surfaces::View::tangent(std::uint32_t vertex) const {
+  return vertices ? attribute_at(*vertices, time, vertex, &scene::DeformedVertices::tangents)
+                  : mesh->tangents[vertex];
 }
 
 Vec3 Surfaces::View::world_normal(const Vec3& normal, bool turn) const {
@@ -233,7 +281,7 @@ Surfaces::Place Surfaces::place(const View& view, const Hit& hit, const Vec3& di
   const Vec3& b = place.b;
   Vec3(&p)[3] = place.corners;
   for (int corner = 0; corner < 3; ++corner) {
-    p[corner] = mesh.positions[corners[corner]];
+    p[corner] = view.position(corners[corner]);
     if (!view.baked) p[corner] = view.transform * p[corner];
   }
   Vec3& ng = place.normal;
@@ -246,7 +294,8 @@ Surfaces::Place Surfaces::place(const View& view, const Hit& hit, const Vec3& di
   s.front = ng.dot(direction) <= 0.0f;
   Vec3 ns = ng;
   if (!mesh.normals.empty()) {
-    Vec3 n = interpolate(mesh.normals, corners, b);
+    Vec3 n =
+        view.normal(corners[0]) * b.x() + view.normal(corners[1]) * b.y() + view.normal(corners[2]) * b.z();
     if (!view.baked) n = view.normal_matrix * n;
     const float squared = n.squaredNorm();
     if (squared > 0.0f) ns = n / std::sqrt(squared);
@@ -260,7 +309,7 @@ Surfaces::Place Surfaces::place(const View& view, const Hit& hit, const Vec3& di
   if (!mesh.normals.empty() && !view.material->transmits()) {
     Vec3 n[3];
     for (int corner = 0; corner < 3; ++corner)
-      n[corner] = view.world_normal(mesh.normals[corners[corner]], place.turned);
+      n[corner] = view.world_normal(view.normal(corners[corner]), place.turned);
     round(s, p, n, b, -direction);
   }
   return place;
@@ -268,6 +317,12 @@ Surfaces::Place Surfaces::place(const View& view, const Hit& hit, const Vec3& di
 
 Surface Surfaces::at(const Hit& hit, const Vec3& direction, float cone_width, float u_level) const {
   const View& view = views_[hit.instance];
+  return view.is_blurred() ? at(view.at(hit.time), hit, direction, cone_width, u_level)
+                           : at(view, hit, direction, cone_width, u_level);
+}
+
+Surface Surfaces::at(const View& view, const Hit& hit, const Vec3& direction, float cone_width,
+                     float u_level) const {
   const scene::Mesh& mesh = *view.mesh;
   const scene::Material& m = *view.material;
   const Corners& corners = mesh.triangles[hit.primitive];
@@ -297,7 +352,9 @@ Surface Surfaces::at(const Hit& hit, const Vec3& direction, float cone_width, fl
   read_sheen(m, read, s.material);
   const bool mapped_coat = m.clearcoat > 0.0f && m.clearcoat_normal_texture;
   if (!mesh.tangents.empty() && (m.normal_texture || m.anisotropy > 0.0f || mapped_coat)) {
-    Vec4 tangent = interpolate(mesh.tangents, corners, place.b);
+    const Vec3& b = place.b;
+    Vec4 tangent = view.tangent(corners[0]) * b.x() + view.tangent(corners[1]) * b.y() +
+                   view.tangent(corners[2]) * b.z();
     tangent.w() = mesh.tangents[corners[0]].w();
     if (!view.baked) tangent.head<3>() = (view.transform.linear() * tangent.head<3>()).eval();
     read_frame(m, read, Frame(s.smooth_normal, tangent, place.turned != view.mirrors), s);

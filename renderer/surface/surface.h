@@ -9,6 +9,7 @@
 #include "renderer/surface/rounding.h"
 #include "renderer/surface/texture.h"
 #include "scene/scene.h"
+#include "scene/shutter.h"
 
 namespace gatelight::renderer {
 
@@ -66,12 +67,27 @@ class Surfaces {
     PlacementRounding rounding;
     bool baked = true;
     bool mirrors = false;
+    /// States of the open shutter; null for what stands still in it.
+    const std::vector<Affine>* transforms = nullptr;
+    const std::vector<scene::DeformedVertices>* vertices = nullptr;
+    float time = scene::kShutterMiddle;  ///< of the vertices
+
+    bool is_blurred() const { return transforms != nullptr || vertices != nullptr; }
+    View at(float shutter_time) const;
+
+    // Vertices of the mesh.
+    Vec3 position(std::uint32_t vertex) const;
+    Vec3 normal(std::uint32_t vertex) const;
+    Vec4 tangent(std::uint32_t vertex) const;
 
     /// A unit vector, or zero; `turn` negates it.
     Vec3 world_normal(const Vec3& normal, bool turn) const;
   };
   struct Place;
 
+  static void open_shutter(const scene::ShutterMotion& shutter, std::size_t instance, std::size_t mesh,
+                           View& view);
+  Surface at(const View& view, const Hit& hit, const Vec3& direction, float cone_width, float u_level) const;
   /// Fills the position and the normals of `surface`.
   static Place place(const View& view, const Hit& hit, const Vec3& direction, Surface& surface);
 

@@ -27,6 +27,7 @@ class OcclusionRays {
     ray.origin = surface.spawn(ray.direction);
     ray.t_max = distance;
     ray.seed = hash(sample.seed + 1u);
+    ray.time = sample.camera_ray.ray.time;
     rays_.push_back(ray);
     numbers_.push_back(number);
     return true;

@@ -192,6 +192,7 @@ struct PathState {
     points.sampler_index[lane] = sampler.index();
     points.dimensions[lane] = m.dimensions;
     points.seed[lane] = seed;
+    points.time[lane] = m.hit.time;
     points.events_before_roulette[lane] = static_cast<std::uint32_t>(min_depth - depth);
     for (int c = 0; c < 3; ++c) points.throughput[c][lane] = throughput[c];
     if (block.scalar.empty()) return put_surface(points, lane, m.surface, m.wo);
@@ -242,7 +243,7 @@ struct PathState {
     surfaces += 1;
     if (surfaces > depth + kMaxPassed || transmissions > walk.max_transmission_depth) return false;
     seed = next_seed(seed);
-    ray = {lane_vector(p.next_origin, lane), kInfinity, sampled.wi, seed};
+    ray = {lane_vector(p.next_origin, lane), kInfinity, sampled.wi, seed, hit.time};
     cone.width = block.cone_width[lane];
     if (!sampled.through_pane) cone.spread += sampled.spread * kDiffuseSpread;
     return true;
@@ -328,7 +329,7 @@ inline DirectionSample direction_sample_at(const SurfaceBlock& block, int lane) 
 /// The shadow ray of a lane's light sample.
 inline Ray shadow_ray_at(const ShadingBlock& p, int lane) {
   return {lane_vector(p.shadow_origin, lane), p.shadow_length[lane], lane_vector(p.light_direction, lane),
-          p.shadow_seed[lane]};
+          p.shadow_seed[lane], p.time[lane]};
 }
 
 }  // namespace gatelight::renderer

@@ -43,9 +43,9 @@ struct Departure {
 inline float emission_weight(const World& world, const MisRule& mis, const Departure& departure,
                              const Hit& hit, const Surface& surface, const Vec3& direction) {
   if (!departure.competes() || surface.unlit) return 1.0f;
-  return mis.bsdf_weight(departure.pdf,
-                         world.lights.pdf_triangle(departure.position, departure.normal, hit.instance,
-                                                   hit.primitive, direction, departure.travelled + hit.t));
+  return mis.bsdf_weight(departure.pdf, world.lights.pdf_triangle(departure.position, departure.normal,
+                                                                  hit.instance, hit.primitive, direction,
+                                                                  departure.travelled + hit.t, hit.time));
 }
 
 /// The same for a ray that leaves the scene.
@@ -59,12 +59,14 @@ inline float sky_weight(const World& world, const MisRule& mis, const Departure&
 /// The ray from a surface to a light sample. It ends before the light by the rounding error of both ends.
 /// With a fraction of the distance instead, occluders close to a far lamp would be missed, and a large lamp
 /// nearby would shadow itself.
-inline Ray shadow_ray(const Surface& surface, const LightSample& light, std::uint32_t seed) {
+inline Ray shadow_ray(const Surface& surface, const LightSample& light, std::uint32_t seed,
+                      float time = scene::kShutterMiddle) {
   Ray ray;
   ray.origin = surface.spawn(light.wi);
   ray.direction = light.wi;
   ray.t_max = light.distance - (light.offset + 2.0f * surface.offset) / light.cosine;
   ray.seed = shadow_seed(seed);
+  ray.time = time;
   if (!(ray.t_max > 0.0f)) ray.t_max = 0.5f * light.distance;
   return ray;
 }

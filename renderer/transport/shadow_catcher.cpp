@@ -36,12 +36,12 @@ class Catcher {
     const std::uint32_t first = dimension::kFirstVertex;
     const LightSample light =
         world_.lights.sample(surface.position, n, sampler.get_1d(first + dimension::kLightChoice),
-                             sampler.get_2d(first + dimension::kLightPoint));
+                             sampler.get_2d(first + dimension::kLightPoint), hit.time);
     const float cosine = n.dot(light.wi);
     if (light.pdf > 0.0f && cosine > 0.0f) {
       const bool sky = !light.delta && light.distance == kInfinity;
       const float weight = sky ? light.pdf / (light.pdf + cosine * kInvPi) : 1.0f;
-      trace(pixel, shadow_ray(surface, light, sample.seed),
+      trace(pixel, shadow_ray(surface, light, sample.seed, hit.time),
             kInvPi * cosine * weight * luminance(light.radiance) / light.pdf);
     }
     // Light samples may leave out the sky, so a bounce samples it too.
@@ -49,7 +49,7 @@ class Catcher {
     const Vec3 wi = Basis(n).to_world(local);
     const float density = kInvPi * std::max(local.z(), 0.0f);
     if (!(density > 0.0f)) return;
-    Ray open{surface.spawn(wi), kInfinity, wi, hash(sample.seed ^ 0x63617463u)};
+    Ray open{surface.spawn(wi), kInfinity, wi, hash(sample.seed ^ 0x63617463u), hit.time};
     trace(pixel, open,
           luminance(world_.environment.radiance(wi)) * density /
               (density + world_.lights.pdf_environment(surface.position, n, wi)));

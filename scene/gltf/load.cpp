@@ -22,6 +22,7 @@
 #include "scene/gltf/nodes.h"
 #include "scene/gltf/parts.h"
 #include "scene/gltf/primitives.h"
+#include "scene/gltf/shutter_states.h"
 
 namespace gatelight::scene {
 namespace gltf {
@@ -109,6 +110,7 @@ class Loader {
     warnings_ = {};
     for (const std::string& warning : scene.warnings) warnings_.add(warning);
     if (!animator_) animator_.emplace(document_, warnings_);
+    open_shutter(scene, seconds);
     animator_->apply(seconds, warnings_);
     const Graph graph = flatten_nodes(document_, motion_, options_, warnings_);
     take_cameras(graph, scene);
@@ -194,6 +196,39 @@ class Loader {
     check_bounds(scene, bounds);
   }
 
+  /// Fills the scene's shutter, for the time in its middle.
+  void open_shutter(Scene& scene, double seconds) {
+    scene.shutter = {};
+    if (!(options_.shutter > 0.0)) return;
+    ShutterStates states(scene);
+    for (int key = 0; key < kShutterKeys; ++key) {
+      const double place = static_cast<double>(key) / (kShutterKeys - 1);
+      animator_->apply(seconds + options_.shutter * (place - static_cast<double>(kShutterMiddle)), warnings_);
+      const Graph graph = flatten_nodes(document_, motion_, options_, warnings_);
+      Scene moved;  // with the parts that move
+      moved.origin = scene.origin;
+      take_cameras(graph, moved);
+      if (scene.motion.lights) take_lights(graph, moved);
+      states.add(moved);
+      if (!scene.motion.instances) continue;
+      for (std::size_t i = 0; i < scene.instances.size(); ++i) {
+        Instance instance = scene.instances[i];
+        if (!instance.moves) continue;
+        put(element(graph.placements, instance.placement), scene, instance);
+        states.add_transform(i, instance.transform);
+      }
+      load_each(
+          scene.meshes.size(),
+          [&](std::size_t m, Warnings& warnings) {
+            const int part = scene.meshes[m].deforming;
+            if (part >= 0)
+              states.add_vertices(m, load_part(graph, static_cast<std::size_t>(part), scene, warnings));
+          },
+          warnings_);
+    }
+    scene.shutter = states.finish();
+  }
+
   static void take_cameras(const Graph& graph, Scene& scene) {
     scene.cameras = graph.cameras;
     if (scene.origin.isZero(0.0f)) return;
@@ -252,6 +287,9 @@ class Loader {
 struct SceneFile::Implementation {
   Implementation(const std::filesystem::path& path, const LoadOptions& options) : threads(options.threads) {
     if (options.time) check_time(*options.time);
+    if (!(options.shutter >= 0.0) || !std::isfinite(options.shutter))
+      throw BadOption(
+          fmt::format("`shutter` {}: expected a finite number of seconds, not below 0", options.shutter));
     if (threads <= 0) threads = available_threads();
     require_threads(threads);
     run([&] { loader.emplace(path, options); });

@@ -1,0 +1,27 @@
+#pragma once
+// Collects the states of an open shutter.
+
+#include "scene/scene.h"
+#include "scene/shutter.h"
+
+namespace gatelight::scene::gltf {
+
+/// Takes kShutterKeys states, in order.
+class ShutterStates {
+ public:
+  explicit ShutterStates(const Scene& scene);
+
+  /// The cameras of `moved`, and its lights, which may be none.
+  void add(const Scene& moved);
+  void add_transform(std::size_t instance, const Affine& transform);
+  /// May be called for several meshes at once.
+  void add_vertices(std::size_t mesh, Mesh&& deformed);
+
+  /// Drops what stood still.
+  ShutterMotion finish();
+
+ private:
+  ShutterMotion motion_;
+};
+
+}  // namespace gatelight::scene::gltf
