@@ -41,8 +41,8 @@ constexpr const char* kCompareFooter = R"(Over the red, green and blue of the be
             error, smallest and largest. Radiance is shown with --exposure and --tonemap, cut to [0, 1]
   hdr_flip  HDR-FLIP (2021): the largest FLIP over the exposures that suit the reference
   temporal  of two or more --frames: how much more or less TEST changes from frame to frame than REFERENCE, as
-            differences of flip's input, sRGB. Root mean square of the low frequencies (a Gaussian of 6 pixels: areas
-            that flicker) and of the others (noise, edges)
+            differences of flip's input, sRGB. Root mean squares: temporal_low of the low frequencies (a Gaussian
+            of 6 pixels: areas that flicker), temporal_high of the others (noise, edges)
 Pictures with pixels that are not finite are refused, unless --metric names only those that can leave such pixels out
 (mse, rel_mse, psnr, mean, max); then they are counted and reported. PNG files are converted to linear first.
 
