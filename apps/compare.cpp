@@ -3,10 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <memory>
 
+#include "apps/compare_frames.h"
+#include "apps/measure_pair.h"
 #include "apps/reports/compare_report.h"
 #include "apps/seeds.h"
+#include "apps/settings/compare_settings.h"
 #include "apps/settings/file_names.h"
 #include "apps/settings/flags.h"
 #include "apps/settings/frame_range.h"
@@ -14,12 +18,10 @@
 #include "apps/settings/picture_output.h"
 #include "apps/subcommand.h"
 #include "apps/terminal/errors.h"
-#include "apps/terminal/log.h"
 #include "apps/terminal/terminal.h"
 #include "renderer/image/image_read.h"
 #include "renderer/image/image_write.h"
 #include "renderer/metrics/merge.h"
-#include "renderer/metrics/ssim.h"
 
 namespace gatelight::apps {
 namespace {
@@ -38,8 +40,13 @@ constexpr const char* kCompareFooter = R"(Over the red, green and blue of the be
   flip      LDR-FLIP (2020), the visible difference when the pictures alternate: mean, quartiles weighted by the
             error, smallest and largest. Radiance is shown with --exposure and --tonemap, cut to [0, 1]
   hdr_flip  HDR-FLIP (2021): the largest FLIP over the exposures that suit the reference
+  temporal  of two or more --frames: how much more or less TEST changes from frame to frame than REFERENCE, as
+            differences of flip's input, sRGB. Root mean squares: temporal_low of the low frequencies (a Gaussian
+            of 6 pixels: areas that flicker), temporal_high of the others (noise, edges)
 Pictures with pixels that are not finite are refused, unless --metric names only those that can leave such pixels out
 (mse, rel_mse, psnr, mean, max); then they are counted and reported. PNG files are converted to linear first.
+
+With --frames each value is the mean of those of the frames; the JSON also has each frame's.
 
 With --halves the pictures are the means of REFERENCE and REF2, TEST and TEST2 (weighted by their samples per pixel),
 and bias_rel_mse is the rel_mse that would remain with infinitely many samples, free of the noise of all four: the mean
@@ -48,30 +55,18 @@ of (TEST - REFERENCE)(TEST2 - REF2) over (squared reference + 0.01). Each must h
 Examples:
   gatelight compare reference.exr test.exr
   gatelight compare reference.exr test.exr --metric rel_mse,flip --json - --error-map flip.png
-  gatelight compare reference-a.exr test-1.exr --halves reference-b.exr test-2.exr)";
+  gatelight compare reference-a.exr test-1.exr --halves reference-b.exr test-2.exr
+  gatelight compare reference-%04d.exr test-%04d.exr --frames 0:47 --metric flip,temporal)";
 
-enum class Map : std::uint8_t { flip, hdr_flip, relative };
-constexpr renderer::Choice<Map> kMaps[] = {
-    {"flip", Map::flip}, {"hdr_flip", Map::hdr_flip}, {"relative", Map::relative}};
-
-struct CompareSettings {
-  std::string reference;
-  std::string test;
-  std::vector<std::string> halves;  ///< empty, or the second reference and the second test
-  std::string metrics;
-  std::string json;
-  std::string error_map;
-  Map map = Map::flip;
-  renderer::FlipOptions flip;
-};
-
-std::vector<Metric> choose_metrics(const std::string& list) {
+std::vector<Metric> choose_metrics(const CompareSettings& settings) {
   std::vector<Metric> chosen;
-  if (list.empty()) {
-    for (const renderer::Choice<Metric>& choice : kMetrics) chosen.push_back(choice.value);
+  if (settings.metrics.empty()) {
+    for (const renderer::Choice<Metric>& choice : kMetrics) {
+      if (choice.value != Metric::temporal || settings.has_pairs_of_frames()) chosen.push_back(choice.value);
+    }
     return chosen;
   }
-  for (const std::string& word : split_list("--metric", list)) {
+  for (const std::string& word : split_list("--metric", settings.metrics)) {
     const Metric metric = parse_choice("--metric", word, kMetrics);
     if (std::find(chosen.begin(), chosen.end(), metric) == chosen.end()) chosen.push_back(metric);
   }
@@ -91,8 +86,10 @@ Picture read_pictures(const std::vector<std::string>& files, std::vector<Picture
 
 void check_outputs(const CompareSettings& settings) {
   FileNames names;
-  names.read("REFERENCE", settings.reference);
-  names.read("TEST", settings.test);
+  for (const int frame : settings.frames ? settings.frames->numbers() : std::vector{0}) {
+    names.read("REFERENCE", settings.frames ? name_of_frame(settings.reference, frame) : settings.reference);
+    names.read("TEST", settings.frames ? name_of_frame(settings.test, frame) : settings.test);
+  }
   for (const std::string& half : settings.halves) names.read("--halves", half);
   names.write("--error-map", settings.error_map);
   names.write("--json", settings.json);
@@ -104,39 +101,6 @@ void check_outputs(const CompareSettings& settings) {
     renderer::check_image_output(settings.error_map);
   }
   if (!settings.json.empty() && settings.json != "-") check_writable(settings.json);
-}
-
-/// Whether the metric is a mean over pixels, so that some pixels can be left out.
-bool leaves_pixels_out(Metric metric) {
-  return metric != Metric::ssim && metric != Metric::flip && metric != Metric::hdr_flip;
-}
-
-void check_finite(const CompareSettings& settings, const CompareReport& report) {
-  const renderer::ErrorMetrics& errors = report.errors;
-  if (errors.nonfinite_reference + errors.nonfinite_test == 0) return;
-  const std::string counts =
-      fmt::format("pixels that are not finite: {} in '{}', {} in '{}'", errors.nonfinite_reference,
-                  settings.reference, errors.nonfinite_test, settings.test);
-  const bool possible = std::all_of(report.metrics.begin(), report.metrics.end(), leaves_pixels_out) &&
-                        (settings.error_map.empty() || settings.map == Map::relative);
-  if (!possible) {
-    throw InputError(fmt::format(
-        "{}; expected none for ssim, flip and hdr_flip (--metric mse,rel_mse,psnr,mean,max leaves them out)",
-        counts));
-  }
-  if (report.errors.pixels == 0) throw InputError(fmt::format("{}; nothing is left to compare", counts));
-  log_warning(fmt::format("{}; they are left out", counts));
-}
-
-void measure_looks(CompareReport& report, const NamedPicture& reference, const NamedPicture& test,
-                   bool by_name) {
-  const renderer::FlipOptions& flip = report.flip_options;
-  for (const Metric metric : report.metrics) {
-    if (metric == Metric::ssim && (by_name || has_ssim(reference.picture)))
-      report.ssim = ssim(reference, test, {.exposure = flip.exposure, .tonemap = flip.tonemap});
-    if (metric == Metric::flip) report.flip = ldr_flip(reference, test, flip);
-    if (metric == Metric::hdr_flip) report.hdr_flip = hdr_flip(reference, test, flip);
-  }
 }
 
 Picture make_map(const CompareSettings& settings, const CompareReport& report, const NamedPicture& reference,
@@ -152,12 +116,11 @@ Picture make_map(const CompareSettings& settings, const CompareReport& report, c
   return flip_map(report.flip ? *report.flip : ldr_flip(reference, test, settings.flip));
 }
 
-int run_compare(const CompareSettings& settings) {
+void compare_pair(const CompareSettings& settings, const std::vector<Metric>& metrics) {
   CompareReport report{.references = {settings.reference},
                        .tests = {settings.test},
-                       .metrics = choose_metrics(settings.metrics),
+                       .metrics = metrics,
                        .flip_options = settings.flip};
-  check_outputs(settings);
   if (!settings.halves.empty()) {
     report.references.push_back(settings.halves.front());
     report.tests.push_back(settings.halves.back());
@@ -170,8 +133,8 @@ int run_compare(const CompareSettings& settings) {
   const NamedPicture test{test_picture, settings.test};
   report.width = reference_picture.width;
   report.height = reference_picture.height;
-  report.errors = renderer::compare_pictures(reference, test);
-  check_finite(settings, report);
+  const bool map_needs_all = !settings.error_map.empty() && settings.map != Map::relative;
+  measure_errors(report, reference, test, map_needs_all);
   if (!settings.halves.empty()) {
     report.bias_rel_mse = renderer::squared_bias(
         {{references.front(), report.references.front()}, {references.back(), report.references.back()}},
@@ -184,6 +147,17 @@ int run_compare(const CompareSettings& settings) {
   if (!settings.json.empty()) write_text(settings.json, compare_json(report));
   // With JSON on stdout nothing else is printed there, so that it can be parsed.
   if (settings.json != "-") write_text("-", compare_text(report));
+}
+
+int run_compare(const CompareSettings& settings) {
+  const std::vector<Metric> metrics = choose_metrics(settings);
+  check_frames(settings, metrics);
+  check_outputs(settings);
+  if (settings.frames) {
+    compare_frames(settings, metrics);
+  } else {
+    compare_pair(settings, metrics);
+  }
   return kDone;
 }
 
@@ -196,8 +170,19 @@ std::vector<Option> option_table(CompareSettings& settings) {
       positional("TEST", settings.test, "Picture to be judged"),
       any_words("halves", settings.halves, "REF2 TEST2",
                 "Second halves of reference and test: also estimates the bias without noise"),
-      any_word("metric", settings.metrics, "LIST",
-               "Metrics, separated by commas: mse,rel_mse,psnr,mean,max,ssim,flip,hdr_flip (default: all)"),
+      {.name = "frames",
+       .unit = "A:B[:STEP]",
+       .help =
+           "Frames of two sequences, REFERENCE and TEST with the place of their number: ref-%04d.exr, #### "
+           "or {frame}",
+       .value = [&settings]() -> OptionValue {
+         return settings.frames ? text_of(*settings.frames) : OptionValue();
+       },
+       .read = [&settings](const std::string& text) { settings.frames = parse_frames("--frames", text); }},
+      any_word(
+          "metric", settings.metrics, "LIST",
+          "Metrics, separated by commas: mse,rel_mse,psnr,mean,max,ssim,flip,hdr_flip,temporal (default: "
+          "all)"),
       any_word("json", settings.json, "FILE|-", "Result as JSON; - is stdout"),
       any_word("error-map", settings.error_map, "FILE.png",
                "Picture of the errors. FLIP's: black 0, violet, red, orange, pale yellow 1; relative: black "
@@ -207,8 +192,8 @@ std::vector<Option> option_table(CompareSettings& settings) {
              "For FLIP: pixels of a degree of visual angle. The default is a monitor 0.7 m wide with 3840 "
              "pixels, seen from 0.7 m"),
       number("exposure", settings.flip.exposure, kStops, "EV",
-             "For flip and ssim: stops by which pictures are brighter"),
-      choice("tonemap", settings.flip.tonemap, "For flip and ssim: curve of pictures")};
+             "For flip, ssim and temporal: stops by which pictures are brighter"),
+      choice("tonemap", settings.flip.tonemap, "For flip, ssim and temporal: curve of pictures")};
   for (Option& option : table) {
     if (option.name == "halves") option.words = 2;
     if (option.name == "pixels-per-degree") option.default_text = "67.02";

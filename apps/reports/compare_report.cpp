@@ -12,20 +12,6 @@ namespace gatelight::apps {
 namespace {
 
 using nlohmann::ordered_json;
-using renderer::ErrorMetrics;
-
-/// The metrics that are plain numbers.
-struct Value {
-  Metric metric;
-  const char* key;
-  double ErrorMetrics::*member;
-};
-constexpr Value kValues[] = {{Metric::mse, "mse", &ErrorMetrics::mse},
-                             {Metric::rel_mse, "rel_mse", &ErrorMetrics::rel_mse},
-                             {Metric::psnr, "psnr", &ErrorMetrics::psnr},
-                             {Metric::mean, "mean_error", &ErrorMetrics::mean_error},
-                             {Metric::mean, "mean_difference", &ErrorMetrics::mean_difference},
-                             {Metric::max, "max_error", &ErrorMetrics::max_error}};
 
 const renderer::FlipResult& flip_of(const CompareReport& report, Metric metric) {
   return metric == Metric::flip ? report.flip.value() : report.hdr_flip.value();
@@ -86,7 +72,7 @@ std::string compare_json(const CompareReport& report) {
     json["halves"] = {report.references.back(), report.tests.back()};
   }
   for (const Metric metric : report.metrics) {
-    for (const Value& value : kValues) {
+    for (const ErrorValue& value : kErrorValues) {
       if (value.metric == metric) json[value.key] = json_number(report.errors.*value.member);
     }
     if (metric == Metric::psnr) json["psnr_peak"] = renderer::kPsnrPeak;
@@ -100,7 +86,7 @@ std::string compare_json(const CompareReport& report) {
 std::string compare_text(const CompareReport& report) {
   std::string text;
   for (const Metric metric : report.metrics) {
-    for (const Value& value : kValues) {
+    for (const ErrorValue& value : kErrorValues) {
       if (value.metric != metric) continue;
       text += fmt::format("{:<16} {:.6g}{}\n", value.key, report.errors.*value.member,
                           metric == Metric::psnr ? " dB" : "");

@@ -11,12 +11,26 @@
 
 namespace gatelight::apps {
 
-enum class Metric : std::uint8_t { mse, rel_mse, psnr, mean, max, ssim, flip, hdr_flip };
+enum class Metric : std::uint8_t { mse, rel_mse, psnr, mean, max, ssim, flip, hdr_flip, temporal };
 
 inline constexpr renderer::Choice<Metric> kMetrics[] = {
-    {"mse", Metric::mse},   {"rel_mse", Metric::rel_mse},  {"psnr", Metric::psnr},
-    {"mean", Metric::mean}, {"max", Metric::max},          {"ssim", Metric::ssim},
-    {"flip", Metric::flip}, {"hdr_flip", Metric::hdr_flip}};
+    {"mse", Metric::mse},   {"rel_mse", Metric::rel_mse},   {"psnr", Metric::psnr},
+    {"mean", Metric::mean}, {"max", Metric::max},           {"ssim", Metric::ssim},
+    {"flip", Metric::flip}, {"hdr_flip", Metric::hdr_flip}, {"temporal", Metric::temporal}};
+
+/// The metrics that are plain numbers, with their keys in the JSON.
+struct ErrorValue {
+  Metric metric;
+  const char* key;
+  double renderer::ErrorMetrics::*member;
+};
+inline constexpr ErrorValue kErrorValues[] = {
+    {Metric::mse, "mse", &renderer::ErrorMetrics::mse},
+    {Metric::rel_mse, "rel_mse", &renderer::ErrorMetrics::rel_mse},
+    {Metric::psnr, "psnr", &renderer::ErrorMetrics::psnr},
+    {Metric::mean, "mean_error", &renderer::ErrorMetrics::mean_error},
+    {Metric::mean, "mean_difference", &renderer::ErrorMetrics::mean_difference},
+    {Metric::max, "max_error", &renderer::ErrorMetrics::max_error}};
 
 struct CompareReport {
   std::vector<std::string> references;  ///< files: one, or two halves

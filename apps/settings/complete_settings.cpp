@@ -99,10 +99,7 @@ void check_frame_names(const RenderSettings& settings) {
     if (name.empty()) return;
     if (!settings.frames.range) return refuse_frame_place(flag, name);
     const FrameRange& range = *settings.frames.range;
-    if (range.first != range.last && !has_frame_place(name))
-      throw UsageError(fmt::format(
-          "{}: '{}' is one file for all frames, expected a place for their number in its name: %04d", flag,
-          name));
+    if (range.first != range.last) require_frame_place(flag, name);
   };
   for (const std::string& output : settings.outputs) check("--output", output);
   check("--stats", settings.stats);

@@ -98,6 +98,13 @@ void refuse_frame_place(std::string_view flag, const std::string& name) {
                   flag, name, found.str()));
 }
 
+void require_frame_place(std::string_view flag, const std::string& name) {
+  if (has_frame_place(name)) return;
+  throw UsageError(
+      fmt::format("{}: '{}' is one file for all frames, expected a place for their number in its name: %04d",
+                  flag, name));
+}
+
 std::string name_of_frame(std::string_view name, int frame) {
   const std::size_t file = name.find_last_of('/') + 1;
   std::string text(name.substr(0, file)), rest(name.substr(file));

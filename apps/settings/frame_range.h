@@ -50,8 +50,11 @@ std::string text_of(const ShutterRange& shutter);
 /// Whether the name holds the place of a frame's number: "%04d", "####" or "{frame}".
 bool has_frame_place(std::string_view name);
 
-/// Throws UsageError where it does.
+/// For names of a single picture. Throws UsageError where the name holds such a place.
 void refuse_frame_place(std::string_view flag, const std::string& name);
+
+/// For names of several frames. Throws UsageError where the name holds none.
+void require_frame_place(std::string_view flag, const std::string& name);
 
 /// The name with the number in its places.
 std::string name_of_frame(std::string_view name, int frame);

@@ -53,4 +53,18 @@ void require_comparable(const NamedPicture& a, const NamedPicture& b) {
   }
 }
 
+Picture without_values(const Picture& picture) {
+  Picture shape{.width = picture.width,
+                .height = picture.height,
+                .x0 = picture.x0,
+                .y0 = picture.y0,
+                .full_width = picture.full_width,
+                .full_height = picture.full_height};
+  if (!picture.layers.empty()) {
+    const Layer& beauty = picture.layers.front();
+    shape.layers.push_back({.name = beauty.name, .channels = beauty.channels});
+  }
+  return shape;
+}
+
 }  // namespace gatelight::renderer

@@ -47,4 +47,8 @@ inline std::size_t pixel_count(const Picture& picture) {
 /// picture is grey and the other has colours, or when a beauty layer is missing.
 void require_comparable(const NamedPicture& a, const NamedPicture& b);
 
+/// All that require_comparable() uses of a picture: a later one can be compared with it, at no cost of
+/// memory.
+Picture without_values(const Picture& picture);
+
 }  // namespace gatelight::renderer
