@@ -1,0 +1,122 @@
+// A picture with an open shutter is the mean of still pictures at many times in it.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "renderer/render.h"
+#include "scene/gltf.h"
+#include "scene/shutter.h"
+#include "tests/support/statistics.h"
+
+namespace gatelight::renderer {
+namespace {
+
+constexpr int kWidth = 32, kHeight = 18, kBlock = 6;  // pixels
+constexpr int kTimes = 64;
+constexpr int kSeeds = 12;
+constexpr double kMiddle = 0.6, kOpen = 0.3;  // seconds
+const double kFamily = 1e-4;
+
+RenderOptions options_of(int spp) {
+  RenderOptions options;
+  options.width = kWidth;
+  options.height = kHeight;
+  options.spp = spp;
+  options.filter = PixelFilter::box;
+  options.max_depth = 2;
+  options.denoise.denoiser = DenoiserKind::none;
+  return options;
+}
+
+/// The mean of the red, green and blue of a block of pixels.
+double mean_of_block(const Picture& picture, int x0, int y0) {
+  double sum = 0.0;
+  int count = 0;
+  for (int y = y0; y < std::min(y0 + kBlock, kHeight); ++y) {
+    for (int x = x0; x < std::min(x0 + kBlock, kWidth); ++x) {
+      for (int c = 0; c < 3; ++c, ++count)
+        sum +=
+            static_cast<double>(picture.layers[0].values[static_cast<std::size_t>((y * kWidth + x) * 3 + c)]);
+    }
+  }
+  return sum / count;
+}
+
+std::vector<double> means_of_blocks(const Picture& picture) {
+  std::vector<double> means;
+  for (int y = 0; y < kHeight; y += kBlock) {
+    for (int x = 0; x < kWidth; x += kBlock) means.push_back(mean_of_block(picture, x, y));
+  }
+  return means;
+}
+
+struct Blocks {
+  std::vector<std::vector<double>> of_seed = std::vector<std::vector<double>>(kSeeds);
+
+  void add(int seed, const std::vector<double>& means, double weight) {
+    std::vector<double>& sum = of_seed[static_cast<std::size_t>(seed)];
+    sum.resize(means.size());
+    for (std::size_t i = 0; i < means.size(); ++i) sum[i] += weight * means[i];
+  }
+};
+
+/// Pictures of one time, with several seeds.
+void add_pictures(const std::string& path, const scene::LoadOptions& load, const RenderOptions& options,
+                  int first_seed, double weight, Blocks& blocks) {
+  const scene::Scene scene = scene::load_gltf(path, load);
+  Renderer renderer(scene, options);
+  renderer.begin_frames(*load.time);
+  for (int seed = 0; seed < kSeeds; ++seed)
+    blocks.add(seed, means_of_blocks(renderer.render_frame(first_seed + seed)), weight);
+}
+
+/// The number of blocks whose means differ, at a significance for all of them together.
+int count_different(const Blocks& a, const Blocks& b) {
+  const std::size_t count = a.of_seed[0].size();
+  int different = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    testing::Moments difference;
+    for (std::size_t s = 0; s < kSeeds; ++s) difference.add(a.of_seed[s][i] - b.of_seed[s][i]);
+    different += testing::mean_p_value(difference, 0.0) < testing::sidak(kFamily, count) ? 1 : 0;
+  }
+  return different;
+}
+
+class MotionBlur : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(MotionBlur, IsTheMeanOfStillTimes) {
+  const std::string path = GATELIGHT_DATA "/moving-room.glb";
+  const std::string animation = GetParam();
+  Blocks blurred, stills, middle;
+  add_pictures(path, {.time = kMiddle, .shutter = kOpen, .animation = animation}, options_of(kTimes), 0, 1.0,
+               blurred);
+  add_pictures(path, {.time = kMiddle, .animation = animation}, options_of(kTimes), 500, 1.0, middle);
+  for (int k = 0; k < kTimes; ++k) {
+    const double time = kMiddle + kOpen * ((k + 0.5) / kTimes - 0.5);
+    add_pictures(path, {.time = time, .animation = animation}, options_of(1), 1000 + k * kSeeds, 1.0 / kTimes,
+                 stills);
+  }
+  EXPECT_EQ(count_different(blurred, stills), 0);
+  EXPECT_GT(count_different(middle, stills), 0) << "the test would miss a closed shutter";
+}
+
+INSTANTIATE_TEST_SUITE_P(Animations, MotionBlur,
+                         ::testing::Values("lamp", "walk", "flag", "mirror", "camera"),
+                         [](const auto& each) { return std::string(each.param); });
+
+TEST(MotionBlur, StillScenesKeepTheirBits) {
+  const std::string path = GATELIGHT_DATA "/moving-room.glb";
+  const auto picture = [&](const std::string& animation, double shutter) {
+    const scene::Scene scene =
+        scene::load_gltf(path, {.time = kMiddle, .shutter = shutter, .animation = animation});
+    return Renderer(scene, options_of(4)).render().layers[0].values;
+  };
+  EXPECT_EQ(picture("lamp-off", 0.1), picture("lamp-off", 0.0)) << "materials stand still in a shutter";
+  EXPECT_NE(picture("lamp", 0.1), picture("lamp", 0.0));
+}
+
+}  // namespace
+}  // namespace gatelight::renderer
