@@ -35,6 +35,7 @@ RenderSettings settings_of_frame(const RenderSettings& whole, int frame) {
   settings.render.cache.cache_out.clear();
   settings.frames.range = FrameRange{frame, frame, 1};
   settings.render.camera = camera_of_frame(whole, frame);
+  if (whole.exposure) settings.image.display.exposure = *whole.exposure;
   for (std::string& output : settings.outputs) output = name_of_frame(output, frame);
   settings.stats = name_of_frame(settings.stats, frame);
   return settings;
