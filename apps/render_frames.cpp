@@ -5,11 +5,13 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "apps/preview_video.h"
 #include "apps/render_run.h"
 #include "apps/reports/frame_report.h"
 #include "apps/settings/camera_names.h"
 #include "apps/terminal/errors.h"
 #include "apps/terminal/log.h"
+#include "apps/terminal/signals.h"
 #include "apps/terminal/terminal.h"
 #include "base/errors.h"
 #include "renderer/settings/resolved_options.h"
@@ -68,7 +70,10 @@ int RenderRun::render_frames(scene::SceneFile& file, scene::Scene& scene) {
     }
     if (number != 0) return stop_frames(number, i, frames.size());
   }
-  if (group_.ranks.first()) end_frames(frames.size(), seconds_since(begin));
+  if (group_.ranks.first()) {
+    if (const int number = make_film(frames); number != 0) return kSignalBase + number;
+    end_frames(frames.size(), seconds_since(begin));
+  }
   if (failed_frame_) std::rethrow_exception(failed_frame_);
   return kDone;
 }
@@ -150,7 +155,32 @@ void RenderRun::write_state(const renderer::Renderer& renderer, int frame) {
 
 void RenderRun::note_failed_frame(int frame) {
   if (!failed_frame_) failed_frame_ = std::current_exception();
+  failed_frames_.insert(frame);
   warn(fmt::format("frame {} failed: {}", frame, describe_current_exception().message));
+}
+
+int RenderRun::make_film(std::vector<int> frames) {
+  if (whole_.frames.film.empty()) return 0;
+  // The file of a frame that failed is an older one.
+  std::erase_if(frames, [&](int frame) { return failed_frames_.contains(frame); });
+  progress_.phase("film");
+  try {
+    film_frames_ = write_film(whole_, frames,
+                              {.progress = [&](std::size_t done) { progress_.film(done, frames.size()); },
+                               .stop = [] { return stop_signal() != 0; },
+                               .warn = [this](const std::string& text) { warn(text); }});
+  } catch (const std::exception&) {
+    if (failed_frame_) warn(describe_current_exception().message);
+    if (!failed_frame_) failed_frame_ = std::current_exception();
+    return 0;
+  }
+  if (film_frames_ > 0) return 0;
+  const int number = stop_signal();
+  progress_.clear();
+  print_notice(
+      fmt::format("stopped by signal {} after all frames; '{}' is not made", number, whole_.frames.film),
+      kSignalBase + number);
+  return number;
 }
 
 int RenderRun::stop_frames(int signal, std::size_t done, std::size_t count) {
@@ -163,8 +193,12 @@ int RenderRun::stop_frames(int signal, std::size_t done, std::size_t count) {
 }
 
 void RenderRun::end_frames(std::size_t count, double seconds) {
-  const bool as_json = progress_.done({{"frames", count}, {"seconds", seconds}});
-  if (!as_json && !settings_.quiet) print_status(frames_summary(count, seconds, whole_, report_));
+  nlohmann::ordered_json json = {{"frames", count}, {"seconds", seconds}};
+  if (film_frames_ > 0) json["film_frames"] = film_frames_;
+  if (progress_.done(json) || settings_.quiet) return;
+  print_status(frames_summary(count, seconds, whole_, report_));
+  if (film_frames_ > 0)
+    print_status(fmt::format("film      {} frames; {}\n", film_frames_, whole_.frames.film));
 }
 
 }  // namespace gatelight::apps

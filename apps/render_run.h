@@ -46,6 +46,8 @@ class RenderRun {
   void end_frames(std::size_t count, double seconds);
   /// Keeps a failure of one frame, so that the others are rendered.
   void note_failed_frame(int frame);
+  /// Makes the film of --preview-video; a failure of it is kept. The number of a signal that ended it, or 0.
+  int make_film(std::vector<int> frames);
 
   /// Sets the chosen integrator in the settings, which the reports show.
   void note_integrator(renderer::Integrator chosen);
@@ -77,7 +79,9 @@ class RenderRun {
   std::string bright_lights_;  ///< lights_from_watts()
   bool glare_reported_ = false;
   std::exception_ptr failed_output_;  ///< the last failure of a checkpoint or cache file
-  std::exception_ptr failed_frame_;   ///< the first one
+  std::exception_ptr failed_frame_;   ///< the first one, or that of the film
+  std::set<int> failed_frames_;
+  std::size_t film_frames_ = 0;  ///< frames in the film; 0: there is none
 };
 
 }  // namespace gatelight::apps

@@ -23,6 +23,7 @@ struct FrameSettings {
   std::optional<FrameRange> range;
   double fps = 24.0;  ///< frame n shows the time n / fps
   int turntable = 0;  ///< frames of a whole turn of the camera; 0: it stays
+  std::string film;   ///< file of --preview-video, empty for none
 
   bool any() const { return range || turntable > 0; }
   double seconds(int frame) const { return frame / fps; }

@@ -116,7 +116,7 @@ void add_load_options(OptionGroup& group, scene::LoadOptions& load) {
 }
 
 void add_frame_options(OptionGroup& group, FrameSettings& frames) {
-  auto& [range, fps, turntable] = frames;
+  auto& [range, fps, turntable, film] = frames;
   const auto add = [&](Option option) {
     const auto value = std::move(option.value);
     option.value = [value, &range = range]() -> OptionValue { return range ? value() : OptionValue(); };
@@ -131,6 +131,10 @@ void add_frame_options(OptionGroup& group, FrameSettings& frames) {
   add(number("fps", fps, kFps, "N", "Frames of a second: frame n shows the time n / N"));
   add(number("turntable", turntable, kTurns, "N",
              "The camera goes around what it looks at, once in N frames; alone it renders these"));
+  group.add(in_recipe(not_in_sweep(any_word("preview-video", film, "FILE",
+                                            "Film of the frames at --fps, .mp4, .mkv, .mov, .webm or .gif, "
+                                            "made at the end by an installed ffmpeg")),
+                      InRecipe::never));
 }
 
 Option preset_option(std::optional<CachePreset>& preset) {

@@ -56,6 +56,11 @@ TEST(FrameFlags, ExcludeWhatHasNoMeaningWithThem) {
   tests::expect_message(refused({"--frames", "0:3", "--time", "1"}), {"--time", "--frames"});
   tests::expect_message(refused({"--frames", "0:3"}), {"--output", "%04d"});
   tests::expect_message(refused({"--frames", "0:3", "--camera", "all"}), {"--camera", "--frames"});
+  tests::expect_message(refused({"--preview-video", "a.mp4"}), {"--preview-video", "--frames"});
+  tests::expect_message(refused({"--frames", "4", "--preview-video", "a.avi"}),
+                        {"--preview-video", "a.avi", ".mp4"});
+  tests::expect_message(refused({"--frames", "4", "--preview-video", "a%d.mp4"}),
+                        {"--preview-video", "a%d.mp4"});
   EXPECT_EQ(refused({"--frames", "4"}), "") << "one frame needs no pattern";
   EXPECT_EQ(read_flags({"--turntable", "1"}).load.time, 0.0);
   EXPECT_EQ(read_flags({"--frames", "12:12", "--fps", "24"}).load.time, 0.5);
