@@ -3,6 +3,7 @@
 #include <memory>
 #include <new>
 
+#include "apps/frame_groups.h"
 #include "apps/render_run.h"
 #include "apps/settings/complete_settings.h"
 #include "apps/settings/flags.h"
@@ -59,7 +60,7 @@ int run_render(RenderSettings settings, const std::vector<std::string>& command,
   install_signal_handlers();
   // Errors without a file name get the scene's name.
   try {
-    return RenderRun(settings, command, group).run();
+    return RenderRun(settings, command, own_group(settings.frames.groups, group), group).run();
   } catch (const TrainingDiverged& error) {
     throw TrainingDiverged(fmt::format("{}: {}", settings.scene, error.what()));
   } catch (const NumericalError& error) {

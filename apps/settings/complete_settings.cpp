@@ -270,6 +270,7 @@ void complete_settings(RenderSettings& settings) {
   complete_aovs(settings.render, settings.frames.range.has_value());
   settings.render.denoise.library = oidn_place(settings.render.denoise.library);
   check_checkpoint(settings);
+  check_frame_groups(settings);
   check_frame_names(settings);
   check_film(settings);
   check_stdout(settings.outputs, settings.stats);

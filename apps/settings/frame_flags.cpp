@@ -8,6 +8,7 @@
 
 #include "apps/settings/picture_output.h"
 #include "apps/terminal/errors.h"
+#include "renderer/settings/enum_names.h"
 
 namespace gatelight::apps {
 
@@ -49,6 +50,34 @@ void check_film(const RenderSettings& settings) {
   if (film_source(settings.outputs).empty())
     throw UsageError(
         "--preview-video: the film is made of the frames' files, expected an --output in PNG, EXR or HDR");
+}
+
+void check_frame_groups(const RenderSettings& settings) {
+  const FrameSettings& frames = settings.frames;
+  if (frames.groups == 1) return;
+  const renderer::RenderOptions& options = settings.render;
+  const auto refuse = [](const std::string& why) { throw UsageError("--frame-groups: " + why); };
+  if (!frames.range) refuse("there are no frames, expected --frames or --turntable with it");
+  if (const std::size_t count = frames.range->numbers().size();
+      count < static_cast<std::size_t>(frames.groups))
+    refuse(fmt::format("{}, expected at most the number of frames, {}", frames.groups, count));
+  if (!options.checkpoint.file.empty())
+    refuse(
+        "a checkpoint is of one frame after the other, expected no --checkpoint; --frames can leave out "
+        "those that are done");
+  if (!options.choose_integrator) check_frame_groups(frames, options.integrator);
+  if (options.denoise.denoiser != renderer::DenoiserKind::none && options.denoise.temporal)
+    refuse("denoised frames take over light of the one before, expected --temporal off or --denoiser none");
+  if (std::find(options.aovs.begin(), options.aovs.end(), renderer::Aov::motion) != options.aovs.end())
+    refuse("the layer 'motion' is the motion since the frame before, expected other --aov");
+}
+
+void check_frame_groups(const FrameSettings& frames, renderer::Integrator integrator) {
+  if (frames.groups > 1 && renderer::uses_cache(integrator))
+    throw UsageError(
+        fmt::format("--frame-groups: frames of a kept cache depend on the one before, and the integrator is "
+                    "'{}', expected --integrator path or ao",
+                    renderer::enum_name(integrator)));
 }
 
 }  // namespace gatelight::apps

@@ -19,4 +19,10 @@ std::string film_source(const std::vector<std::string>& outputs);
 /// Throws UsageError where --preview-video has another extension, no frames, or no files to be made of.
 void check_film(const RenderSettings& settings);
 
+/// Throws UsageError where --frame-groups deals frames that depend on the frame before.
+void check_frame_groups(const RenderSettings& settings);
+
+/// The same for the integrator, which may be chosen for the scene.
+void check_frame_groups(const FrameSettings& frames, renderer::Integrator integrator);
+
 }  // namespace gatelight::apps
