@@ -3,6 +3,7 @@
 #include <memory>
 #include <new>
 
+#include "apps/frame_groups.h"
 #include "apps/render_run.h"
 #include "apps/settings/complete_settings.h"
 #include "apps/settings/flags.h"
@@ -11,6 +12,7 @@
 #include "apps/terminal/errors.h"
 #include "apps/terminal/log.h"
 #include "apps/terminal/signals.h"
+#include "apps/video_encoder.h"
 #include "base/errors.h"
 
 namespace gatelight::apps {
@@ -26,7 +28,7 @@ Examples:
   gatelight render room.glb -o room.exr -o room.png --spp 256 --size 1920x1080
   gatelight render hall.glb -o hall.png --camera hall --environment 0.65,0.8,1 --exposure 1 --tonemap filmic
   gatelight render house.glb -o house.png --sky "date=2026-06-21, time=18:30, place=48.1,11.6, zone=+2"
-  gatelight render robot.glb -o robot-%04d.png --preset standard --frames 0:47 --fps 24
+  gatelight render robot.glb -o robot-%04d.png --preset standard --frames 0:47 --preview-video robot.mp4
   gatelight render room.glb -o room.png --preset preview --cache-out room.safetensors
   gatelight render room.glb -o room.exr --preset standard --time-limit 10
   gatelight render room.glb -o room.exr --denoiser oidn --max-error 0.05)";
@@ -53,11 +55,12 @@ int run_render(RenderSettings settings, const std::vector<std::string>& command,
   if (!group.ranks.first()) settings.quiet = true;
   check_inputs(settings);
   if (group.ranks.first()) check_outputs(settings);
+  if (group.ranks.first() && !settings.frames.film.empty()) find_encoder();
   set_log_level(settings.quiet, settings.verbose && group.ranks.first());
   install_signal_handlers();
   // Errors without a file name get the scene's name.
   try {
-    return RenderRun(settings, command, group).run();
+    return RenderRun(settings, command, own_group(settings.frames.groups, group), group).run();
   } catch (const TrainingDiverged& error) {
     throw TrainingDiverged(fmt::format("{}: {}", settings.scene, error.what()));
   } catch (const NumericalError& error) {

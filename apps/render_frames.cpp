@@ -5,13 +5,19 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "apps/frame_groups.h"
+#include "apps/preview_video.h"
 #include "apps/render_run.h"
 #include "apps/reports/frame_report.h"
 #include "apps/settings/camera_names.h"
+#include "apps/settings/frame_flags.h"
 #include "apps/terminal/errors.h"
 #include "apps/terminal/log.h"
+#include "apps/terminal/signals.h"
 #include "apps/terminal/terminal.h"
 #include "base/errors.h"
+#include "renderer/distributed/collectives.h"
+#include "renderer/image/auto_exposure.h"
 #include "renderer/settings/resolved_options.h"
 
 namespace gatelight::apps {
@@ -40,26 +46,40 @@ RenderSettings settings_of_frame(const RenderSettings& whole, int frame) {
   settings.render.cache.cache_out.clear();
   settings.frames.range = FrameRange{frame, frame, 1};
   settings.render.camera = camera_of_frame(whole, frame);
+  if (whole.exposure) settings.image.display.exposure = *whole.exposure;
   for (std::string& output : settings.outputs) output = name_of_frame(output, frame);
   settings.stats = name_of_frame(settings.stats, frame);
   return settings;
+}
+
+std::optional<Failure> described(const std::exception_ptr& error) {
+  if (!error) return {};
+  try {
+    std::rethrow_exception(error);
+  } catch (...) {
+    return describe_current_exception();
+  }
 }
 
 }  // namespace
 
 int RenderRun::render_frames(scene::SceneFile& file, scene::Scene& scene) {
   whole_ = pictures_of(settings_, scene).front();
-  const std::vector<int> frames = whole_.frames.range->numbers();
-  settings_ = settings_of_frame(whole_, frames.front());
+  const int groups = whole_.frames.groups;
+  const std::vector<int> all = whole_.frames.range->numbers();
+  const std::vector<int> frames = frames_of_group(all, groups, number_of_group(groups, all_.ranks));
+  settings_ = settings_of_frame(whole_, all.front());
   progress_.phase("build");
   const Clock::time_point begin = Clock::now();
   renderer::Renderer renderer(scene, settings_.render, group_.ranks);
   if (whole_.render.choose_integrator) renderer::use_integrator(whole_.render, renderer.integrator());
+  check_frame_groups(whole_.frames, renderer.integrator());
   const std::size_t warnings_of_loading = report_.warnings.size();
-  for (std::size_t i = begin_frames(file, scene, renderer, frames); i < frames.size(); ++i) {
+  int number = 0;
+  std::size_t i = begin_frames(file, scene, renderer, frames);
+  for (; i < frames.size(); ++i) {
     report_.warnings.resize(warnings_of_loading);
     progress_.begin_frame(frames[i], i, frames.size());
-    int number = 0;
     try {
       number = make_frame(file, scene, renderer, frames[i]);
     } catch (const OutOfMemory&) {
@@ -70,9 +90,14 @@ int RenderRun::render_frames(scene::SceneFile& file, scene::Scene& scene) {
       if (!group_.ranks.is_single()) throw;  // the others wait for this one
       note_failed_frame(frames[i]);
     }
-    if (number != 0) return stop_frames(number, i, frames.size());
+    if (number != 0) break;
   }
-  if (group_.ranks.first()) end_frames(frames.size(), seconds_since(begin));
+  if (groups > 1) return end_groups(number, i, all, seconds_since(begin));
+  if (number != 0) return stop_frames(number, i, frames.size());
+  if (group_.ranks.first()) {
+    if (const int stopped = make_film(frames); stopped != 0) return kSignalBase + stopped;
+    end_frames(frames.size(), seconds_since(begin));
+  }
   if (failed_frame_) std::rethrow_exception(failed_frame_);
   return kDone;
 }
@@ -132,8 +157,10 @@ int RenderRun::make_frame(scene::SceneFile& file, scene::Scene& scene, renderer:
   renderer::Picture picture = renderer.render_frame(frame, make_callbacks(renderer));
   // An unfinished frame would look like a finished one.
   if (const int number = signal(); number != 0) return number;
+  keep_exposure(&picture);
+  // The first frame is shown by its own light, as any picture is.
+  if (frame != whole_.frames.range->first) settings_ = settings_of_frame(whole_, frame);
   end_picture(std::move(picture), renderer.statistics());
-  if (!whole_.exposure) whole_.exposure = report_.exposure;  // it holds for all frames
   if (!group_.ranks.first()) return 0;
   write_state(renderer, frame);
   if (!progress_.frame_done(frame, summary_json(settings_, report_)) && !settings_.quiet) {
@@ -141,6 +168,13 @@ int RenderRun::make_frame(scene::SceneFile& file, scene::Scene& scene, renderer:
     print_status(frame_line(frame, settings_, report_));
   }
   return 0;
+}
+
+void RenderRun::keep_exposure(const renderer::Picture* picture) {
+  if (whole_.exposure) return;
+  const float suitable = picture && group_.ranks.first() ? renderer::auto_exposure(*picture) : 0.0f;
+  // Rank 0 has the first frame; each group waits for it once.
+  whole_.exposure = whole_.frames.groups > 1 ? renderer::agreed(all_.ranks, suitable) : suitable;
 }
 
 void RenderRun::write_state(const renderer::Renderer& renderer, int frame) {
@@ -154,7 +188,32 @@ void RenderRun::write_state(const renderer::Renderer& renderer, int frame) {
 
 void RenderRun::note_failed_frame(int frame) {
   if (!failed_frame_) failed_frame_ = std::current_exception();
+  failed_frames_.insert(frame);
   warn(fmt::format("frame {} failed: {}", frame, describe_current_exception().message));
+}
+
+int RenderRun::make_film(std::vector<int> frames) {
+  if (whole_.frames.film.empty()) return 0;
+  // The file of a frame that failed is an older one.
+  std::erase_if(frames, [&](int frame) { return failed_frames_.contains(frame); });
+  progress_.phase("film");
+  try {
+    film_frames_ = write_film(whole_, frames,
+                              {.progress = [&](std::size_t done) { progress_.film(done, frames.size()); },
+                               .stop = [] { return stop_signal() != 0; },
+                               .warn = [this](const std::string& text) { warn(text); }});
+  } catch (const std::exception&) {
+    if (failed_frame_) warn(describe_current_exception().message);
+    if (!failed_frame_) failed_frame_ = std::current_exception();
+    return 0;
+  }
+  if (film_frames_ > 0) return 0;
+  const int number = stop_signal();
+  progress_.clear();
+  print_notice(
+      fmt::format("stopped by signal {} after all frames; '{}' is not made", number, whole_.frames.film),
+      kSignalBase + number);
+  return number;
 }
 
 int RenderRun::stop_frames(int signal, std::size_t done, std::size_t count) {
@@ -166,9 +225,43 @@ int RenderRun::stop_frames(int signal, std::size_t done, std::size_t count) {
   return kSignalBase + signal;
 }
 
+int RenderRun::end_groups(int signal, std::size_t done, const std::vector<int>& frames, double seconds) {
+  if (signal != 0) all_.stop_others(signal);
+  keep_exposure(nullptr);
+  FrameResults mine;
+  // The ranks of a group have the same results, and rank 0 has printed its warnings.
+  if (group_.ranks.first()) {
+    mine = {.signal = signal, .done = done, .failed = {failed_frames_.begin(), failed_frames_.end()}};
+    mine.failure = described(failed_frame_);
+    if (!all_.ranks.first()) mine.warnings = {printed_warnings_.begin(), printed_warnings_.end()};
+  }
+  const FrameResults of_all = joined_results(all_.ranks, mine);
+  if (of_all.signal != 0) return stop_frames(of_all.signal, of_all.done, frames.size());
+  std::optional<Failure> failure = of_all.failure;
+  int code = kDone;
+  if (all_.ranks.first()) {
+    for (const std::string& warning : of_all.warnings) warn(warning);
+    failed_frames_.insert(of_all.failed.begin(), of_all.failed.end());
+    const std::exception_ptr before = failed_frame_;
+    if (const int stopped = make_film(frames); stopped != 0) code = kSignalBase + stopped;
+    if (failed_frame_ != before && failure) warn(described(failed_frame_)->message);
+    if (!failure) failure = described(failed_frame_);
+    if (code == kDone) end_frames(frames.size(), seconds);
+  }
+  code = renderer::agreed(all_.ranks, code);
+  failure = shared_failure(all_.ranks, failure);
+  if (code != kDone || !failure) return code;
+  print_failure(*failure);
+  return failure->code;
+}
+
 void RenderRun::end_frames(std::size_t count, double seconds) {
-  const bool as_json = progress_.done({{"frames", count}, {"seconds", seconds}});
-  if (!as_json && !settings_.quiet) print_status(frames_summary(count, seconds, whole_, report_));
+  nlohmann::ordered_json json = {{"frames", count}, {"seconds", seconds}};
+  if (film_frames_ > 0) json["film_frames"] = film_frames_;
+  if (progress_.done(json) || settings_.quiet) return;
+  print_status(frames_summary(count, seconds, whole_, report_));
+  if (film_frames_ > 0)
+    print_status(fmt::format("film      {} frames; {}\n", film_frames_, whole_.frames.film));
 }
 
 }  // namespace gatelight::apps

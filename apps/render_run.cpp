@@ -35,16 +35,18 @@ double count_pixels(const renderer::RenderOptions& options) {
 
 }  // namespace
 
-RenderRun::RenderRun(RenderSettings settings, const std::vector<std::string>& command, const RankGroup& group)
+RenderRun::RenderRun(RenderSettings settings, const std::vector<std::string>& command, const RankGroup& group,
+                     const RankGroup& all)
     : settings_(std::move(settings)),
       group_(group),
+      all_(all),
       progress_(settings_.quiet ? ProgressMode::none : settings_.progress, count_pixels(settings_.render)) {
   report_.command = command;
   report_.hosts = group.hosts;
 }
 
 int RenderRun::run() {
-  share_machines(settings_, group_);
+  share_machines(settings_, all_);
   // A scene may take long to load.
   if (group_.ranks.first() && settings_.render.denoise.denoiser == renderer::DenoiserKind::oidn)
     renderer::load_oidn(settings_.render.denoise.library);
@@ -56,10 +58,10 @@ int RenderRun::run() {
   report_.load_seconds = seconds_since(start);
   note_loaded(scene);
   if (const int number = signal(); number != 0) return stop_without_picture(number);
-  expect_equal_ranks(settings_, scene, group_);
+  expect_equal_ranks(settings_, scene, all_);
   bright_lights_ = lights_from_watts(scene);
-  const std::size_t memory = require_memory_of_ranks(settings_, scene, group_);
-  log_detail(fmt::format("memory needed{}, estimated: {}", group_.ranks.is_single() ? "" : " by each rank",
+  const std::size_t memory = require_memory_of_ranks(settings_, scene, all_);
+  log_detail(fmt::format("memory needed{}, estimated: {}", all_.ranks.is_single() ? "" : " by each rank",
                          format_bytes(memory)));
   return settings_.frames.range ? render_frames(file, scene) : render_stills(scene);
 }

@@ -18,7 +18,9 @@ namespace gatelight::apps {
 
 class RenderRun {
  public:
-  RenderRun(RenderSettings settings, const std::vector<std::string>& command, const RankGroup& group);
+  /// `group`: the ranks that make pictures together, some of `all` where there are --frame-groups.
+  RenderRun(RenderSettings settings, const std::vector<std::string>& command, const RankGroup& group,
+            const RankGroup& all);
 
   /// Returns the exit code.
   int run();
@@ -44,10 +46,17 @@ class RenderRun {
   void write_state(const renderer::Renderer& renderer, int frame);
   /// The number of a signal that ended it, or 0.
   int make_frame(scene::SceneFile& file, scene::Scene& scene, renderer::Renderer& renderer, int frame);
+  /// The exposure of all frames, where none was given: that of the first frame, which is null at the end of a
+  /// group that has rendered none.
+  void keep_exposure(const renderer::Picture* picture);
   int stop_frames(int signal, std::size_t done, std::size_t count);
+  /// After the frames of each group: reports those of all, makes the film. Returns the exit code.
+  int end_groups(int signal, std::size_t done, const std::vector<int>& frames, double seconds);
   void end_frames(std::size_t count, double seconds);
   /// Keeps a failure of one frame, so that the others are rendered.
   void note_failed_frame(int frame);
+  /// Makes the film of --preview-video; a failure of it is kept. The number of a signal that ended it, or 0.
+  int make_film(std::vector<int> frames);
 
   /// Sets the chosen integrator in the settings, which the reports show.
   void note_integrator(renderer::Integrator chosen);
@@ -71,7 +80,8 @@ class RenderRun {
 
   RenderSettings settings_;  ///< of the picture that is made
   RenderSettings whole_;     ///< of all pictures
-  const RankGroup& group_;
+  const RankGroup group_;
+  const RankGroup& all_;
   RunReport report_;
   Clock::time_point start_ = Clock::now();
   ProgressReporter progress_;
@@ -79,7 +89,9 @@ class RenderRun {
   std::string bright_lights_;  ///< lights_from_watts()
   bool glare_reported_ = false;
   std::exception_ptr failed_output_;  ///< the last failure of a checkpoint or cache file
-  std::exception_ptr failed_frame_;   ///< the first one
+  std::exception_ptr failed_frame_;   ///< the first one, or that of the film
+  std::set<int> failed_frames_;
+  std::size_t film_frames_ = 0;  ///< frames in the film; 0: there is none
 };
 
 }  // namespace gatelight::apps

@@ -20,8 +20,8 @@ constexpr std::uint64_t kMostAtOnce = std::uint64_t{1} << 20;
 
 class AllGathers::Gather {
  public:
-  Gather(const MpiWorld& world, Bytes mine)
-      : world_(world), mine_(std::move(mine)), size_(mine_.size()), sizes_(ranks()) {}
+  Gather(const MpiGroup& group, Bytes mine)
+      : group_(group), mine_(std::move(mine)), size_(mine_.size()), sizes_(ranks()) {}
 
   bool over() const { return step_ == Step::over; }
 
@@ -45,7 +45,7 @@ class AllGathers::Gather {
  private:
   enum class Step { begin, sizes, bytes, over };
 
-  std::size_t ranks() const { return static_cast<std::size_t>(world_.count); }
+  std::size_t ranks() const { return static_cast<std::size_t>(group_.count); }
 
   void next_step() {
     requests_.clear();
@@ -73,7 +73,7 @@ class AllGathers::Gather {
 
   void begin_sizes() {
     requests_.push_back(kNoRequest);
-    check(MPI_Iallgather(&size_, 1, kUint64, sizes_.data(), 1, kUint64, world_.all_gathers, requests_.data()),
+    check(MPI_Iallgather(&size_, 1, kUint64, sizes_.data(), 1, kUint64, group_.all_gathers, requests_.data()),
           "MPI_Iallgather");
   }
 
@@ -87,20 +87,20 @@ class AllGathers::Gather {
     all_.resize(static_cast<std::size_t>(offset));
     requests_.push_back(kNoRequest);
     check(MPI_Iallgatherv(mine_.data(), static_cast<int>(size_), kByte, all_.data(), counts_.data(),
-                          offsets_.data(), kByte, world_.all_gathers, requests_.data()),
+                          offsets_.data(), kByte, group_.all_gathers, requests_.data()),
           "MPI_Iallgatherv");
   }
 
   void begin_many_bytes() {
     results_.resize(ranks());
-    for (int i = 1; i < world_.count; ++i) {
-      const int from = (world_.rank + world_.count - i) % world_.count;
+    for (int i = 1; i < group_.count; ++i) {
+      const int from = (group_.rank + group_.count - i) % group_.count;
       Bytes& theirs = results_[static_cast<std::size_t>(from)];
       theirs.resize(sizes_[static_cast<std::size_t>(from)]);
-      begin_receive(world_.all_gathers, from, theirs, requests_);
+      begin_receive(group_.all_gathers, from, theirs, requests_);
     }
-    for (int i = 1; i < world_.count; ++i)
-      begin_send(world_.all_gathers, (world_.rank + i) % world_.count, mine_, requests_);
+    for (int i = 1; i < group_.count; ++i)
+      begin_send(group_.all_gathers, (group_.rank + i) % group_.count, mine_, requests_);
   }
 
   void finish() {
@@ -111,11 +111,11 @@ class AllGathers::Gather {
         at += size;
       }
     } else {
-      results_[static_cast<std::size_t>(world_.rank)] = std::move(mine_);
+      results_[static_cast<std::size_t>(group_.rank)] = std::move(mine_);
     }
   }
 
-  const MpiWorld& world_;
+  const MpiGroup& group_;
   Bytes mine_;
   std::uint64_t size_ = 0;
   std::vector<std::uint64_t> sizes_;
@@ -128,7 +128,7 @@ class AllGathers::Gather {
 };
 
 std::shared_ptr<AllGathers::Gather> AllGathers::begin(Bytes mine) {
-  auto gather = std::make_shared<Gather>(world_, std::move(mine));
+  auto gather = std::make_shared<Gather>(group_, std::move(mine));
   waiting_.push_back(gather);
   if (waiting_.size() == 1) advance();
   return gather;

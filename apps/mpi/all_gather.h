@@ -13,7 +13,7 @@ namespace gatelight::apps {
 /// The caller holds the mutex.
 class AllGathers {
  public:
-  explicit AllGathers(const MpiWorld& world) : world_(world) {}
+  explicit AllGathers(const MpiGroup& group) : group_(group) {}
 
   class Gather;
   /// Returns at once. All-gathers run one after the other.
@@ -27,7 +27,7 @@ class AllGathers {
   static std::vector<renderer::Bytes> take(Gather& gather);
 
  private:
-  const MpiWorld& world_;
+  const MpiGroup& group_;
   std::deque<std::shared_ptr<Gather>> waiting_;  ///< the first one runs
   std::vector<std::shared_ptr<Gather>> failed_;  ///< kept, because MPI may still use their memory
 };

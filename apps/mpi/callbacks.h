@@ -16,6 +16,9 @@ struct RankCallbacks {
   /// Called when no heartbeat came from a rank for this time.
   std::function<void(int rank, const std::string& host, double seconds)> on_lost;
 
+  /// Called where another rank received a signal that ends the run.
+  std::function<void(int signal)> on_stop;
+
   int lost_code = 1;  ///< the program's exit code where the connection is lost
 };
 

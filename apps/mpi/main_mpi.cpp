@@ -36,6 +36,7 @@ RankCallbacks make_callbacks() {
                                                "--resume goes on from the last --checkpoint",
                                                rank, host, seconds, kSeparator));
               },
+          .on_stop = request_stop,
           .lost_code = kLost};
 }
 
@@ -49,7 +50,11 @@ double silence() {
 
 int run_ranks(int argc, char** argv) {
   MpiRanks ranks(&argc, &argv, make_callbacks(), silence());
-  RankGroup group{ranks, ranks.local_count(), {}};
+  RankGroup group{ranks,
+                  ranks.local_count(),
+                  {},
+                  [&](int part) -> renderer::Ranks& { return ranks.split(part); },
+                  [&](int signal) { ranks.stop_others(signal); }};
   for (int rank = 0; rank < ranks.count(); ++rank) group.hosts.push_back(ranks.host(rank));
   set_silent(!ranks.first());
   handle_failures([&](const Failure& failure) {

@@ -3,10 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <atomic>
-#include <cassert>
 #include <chrono>
-#include <cstdint>
 #include <cstdlib>
 #include <exception>
 #include <functional>
@@ -14,10 +11,9 @@
 #include <optional>
 #include <utility>
 
-#include "apps/mpi/all_gather.h"
-#include "apps/mpi/chunks.h"
 #include "apps/mpi/deadline.h"
 #include "apps/mpi/mpi_calls.h"
+#include "apps/mpi/mpi_collectives.h"
 #include "apps/mpi/mpi_world.h"
 #include "apps/mpi/progress_thread.h"
 
@@ -31,25 +27,6 @@ constexpr double kStartTimes = 2.0;
 
 /// Time limit for all-gathers after an error: one that some ranks have not begun cannot end.
 constexpr std::chrono::seconds kAllGathersAfterError(2);
-
-std::size_t index(int rank) {
-  return static_cast<std::size_t>(rank);
-}
-
-/// Adds its lifetime to a counter.
-class WaitingTime {
- public:
-  explicit WaitingTime(std::atomic<std::int64_t>& nanoseconds) : nanoseconds_(nanoseconds) {}
-  ~WaitingTime() {
-    nanoseconds_ += std::chrono::duration_cast<std::chrono::nanoseconds>(Clock::now() - begin_).count();
-  }
-  WaitingTime(const WaitingTime&) = delete;
-  WaitingTime& operator=(const WaitingTime&) = delete;
-
- private:
-  std::atomic<std::int64_t>& nanoseconds_;
-  Clock::time_point begin_ = Clock::now();
-};
 
 /// Returns a function that ends this process where other ranks do not answer; the launcher then ends those.
 /// Other ranks wait longer than rank 0 (patience()), so that rank 0 prints the line.
@@ -68,21 +45,21 @@ double patience(double seconds) {
 
 struct MpiRanks::Connection {
   Connection(int* argc, char*** argv) : world(argc, argv) {}
-  bool gatherings_over() const {
+  bool gatherings_over() {
     const std::lock_guard lock(mpi_mutex());
-    return all_gathers.idle();
+    return all.all_gathers().idle() && std::all_of(groups.begin(), groups.end(),
+                                                   [](const auto& one) { return one->all_gathers().idle(); });
   }
 
   MpiWorld world;
-  AllGathers all_gathers{world};
-  std::optional<ProgressThread> progress_thread;  ///< empty for a single process
+  MpiCollectives all{world};
+  std::vector<std::unique_ptr<MpiCollectives>> groups;  ///< that were split off
+  std::optional<ProgressThread> progress_thread;        ///< empty for a single process
   Callbacks callbacks;
   std::optional<int> fault;  ///< exit code of the error
   bool ended = false;
   double silence = 0.0;
   int exceptions = std::uncaught_exceptions();
-  std::atomic<std::uint64_t> bytes_sent = 0;
-  std::atomic<std::int64_t> waiting = 0;  ///< nanoseconds
 };
 
 MpiRanks::MpiRanks(int* argc, char*** argv, Callbacks callbacks, double silence_seconds) {
@@ -96,7 +73,8 @@ MpiRanks::MpiRanks(int* argc, char*** argv, Callbacks callbacks, double silence_
   Connection& mpi = *connection_;
   mpi.callbacks = std::move(callbacks);
   mpi.silence = silence_seconds;
-  if (count() > 1) mpi.progress_thread.emplace(mpi.world, mpi.all_gathers, mpi.callbacks, silence_seconds);
+  if (count() > 1)
+    mpi.progress_thread.emplace(mpi.world, mpi.all.all_gathers(), mpi.callbacks, silence_seconds);
 }
 
 MpiRanks::~MpiRanks() {
@@ -126,107 +104,35 @@ int MpiRanks::local_count() const {
 }
 
 const std::string& MpiRanks::host(int rank) const {
-  return connection_->world.hosts.at(index(rank));
+  return connection_->world.hosts.at(static_cast<std::size_t>(rank));
 }
 
 std::vector<Bytes> MpiRanks::exchange(std::vector<Bytes> outgoing) {
-  Connection& mpi = *connection_;
-  assert(outgoing.size() == index(count()));
-  if (is_single()) return outgoing;
-  const WaitingTime time(mpi.waiting);
-  struct Exchange {
-    std::vector<Bytes> outgoing, incoming;
-    std::vector<std::uint64_t> outgoing_sizes, incoming_sizes;
-    Requests requests{kNoRequest};
-  };
-  const MpiMemory<Exchange> all;
-  all->outgoing = std::move(outgoing);
-  Bytes own = std::exchange(all->outgoing[index(rank())], {});
-  for (const Bytes& bytes : all->outgoing) {
-    all->outgoing_sizes.push_back(bytes.size());
-    mpi.bytes_sent += bytes.size();
-  }
-  all->incoming_sizes.resize(index(count()));
-  {
-    const std::lock_guard lock(mpi_mutex());
-    check(MPI_Ialltoall(all->outgoing_sizes.data(), 1, kUint64, all->incoming_sizes.data(), 1, kUint64,
-                        mpi.world.data, all->requests.data()),
-          "MPI_Ialltoall");
-  }
-  wait_for(all->requests);
-
-  all->requests.clear();
-  for (const std::uint64_t size : all->incoming_sizes) all->incoming.emplace_back(size);
-  {
-    const std::lock_guard lock(mpi_mutex());
-    for (int other = 0; other < count(); ++other)
-      begin_receive(mpi.world.data, other, all->incoming[index(other)], all->requests);
-    // Each rank begins with the next rank, so that they do not all send to the same one.
-    for (int i = 1; i < count(); ++i) {
-      const int to = (rank() + i) % count();
-      begin_send(mpi.world.data, to, all->outgoing[index(to)], all->requests);
-    }
-  }
-  wait_for(all->requests);
-  all->incoming[index(rank())] = std::move(own);
-  return std::move(all->incoming);
+  return connection_->all.exchange(std::move(outgoing));
 }
 
 void MpiRanks::broadcast(Bytes& bytes) {
-  Connection& mpi = *connection_;
-  if (is_single()) return;
-  const WaitingTime time(mpi.waiting);
-  struct Broadcast {
-    Bytes bytes;
-    std::uint64_t size = 0;
-    Requests requests;
-  };
-  const MpiMemory<Broadcast> all;
-  all->bytes = std::move(bytes);
-  all->size = all->bytes.size();
-  {
-    const std::lock_guard lock(mpi_mutex());
-    begin_broadcast(mpi.world.data, std::as_writable_bytes(std::span(&all->size, 1)), all->requests);
-  }
-  wait_for(all->requests);
-
-  all->requests.clear();
-  all->bytes.resize(all->size);
-  {
-    const std::lock_guard lock(mpi_mutex());
-    begin_broadcast(mpi.world.data, all->bytes, all->requests);
-  }
-  wait_for(all->requests);
-  bytes = std::move(all->bytes);
-  if (first()) mpi.bytes_sent += all->size * static_cast<std::uint64_t>(count() - 1);
+  connection_->all.broadcast(bytes);
 }
 
 std::unique_ptr<renderer::Ranks::AllGather> MpiRanks::begin_gather(Bytes mine) {
-  struct Running : AllGather {
-    explicit Running(Connection& connection) : mpi(connection) {}
-    std::vector<Bytes> wait() override {
-      const WaitingTime time(mpi.waiting);
-      for (Pauses pauses;; pauses.sleep()) {
-        const std::lock_guard lock(mpi_mutex());
-        mpi.all_gathers.advance();
-        if (AllGathers::over(*gather)) break;
-      }
-      return AllGathers::take(*gather);
-    }
-    Connection& mpi;
-    std::shared_ptr<AllGathers::Gather> gather;
-  };
-  if (is_single()) return renderer::OneRank().begin_gather(std::move(mine));
-  auto running = std::make_unique<Running>(*connection_);
-  connection_->bytes_sent += mine.size() * static_cast<std::uint64_t>(count() - 1);
-  const std::lock_guard lock(mpi_mutex());
-  running->gather = connection_->all_gathers.begin(std::move(mine));
-  return running;
+  return connection_->all.begin_gather(std::move(mine));
 }
 
 renderer::Ranks::Traffic MpiRanks::traffic() const {
-  return {.bytes_sent = connection_->bytes_sent,
-          .waiting_seconds = 1e-9 * static_cast<double>(connection_->waiting.load())};
+  return connection_->all.traffic();
+}
+
+renderer::Ranks& MpiRanks::split(int group) {
+  Connection& mpi = *connection_;
+  auto part = std::make_unique<MpiCollectives>(mpi.world.split(group));
+  const std::lock_guard lock(mpi_mutex());
+  if (mpi.progress_thread) mpi.progress_thread->serve(part->all_gathers());
+  return *mpi.groups.emplace_back(std::move(part));
+}
+
+void MpiRanks::stop_others(int signal) {
+  if (connection_->progress_thread) connection_->progress_thread->stop_others(signal);
 }
 
 void MpiRanks::fail(int code, const std::string& line) {
@@ -260,7 +166,9 @@ void MpiRanks::end() {
       seconds, give_up(mpi.callbacks,
                        fmt::format("all is done, but some rank does not end within {:.0f} s", seconds)));
   if (mpi.progress_thread) mpi.progress_thread->stop();
-  mpi.world.finalize();
+  std::vector<MpiGroup> groups;
+  for (const auto& one : mpi.groups) groups.push_back(one->group());
+  mpi.world.finalize(std::move(groups));
 }
 
 }  // namespace gatelight::apps

@@ -33,6 +33,12 @@ class MpiRanks final : public renderer::Ranks {
   std::unique_ptr<AllGather> begin_gather(renderer::Bytes mine) override;
   Traffic traffic() const override;
 
+  /// The ranks that name the same group. This object owns them. All ranks call it at about the same time.
+  renderer::Ranks& split(int group);
+
+  /// Asks all other ranks to stop, as if they had received this signal.
+  void stop_others(int signal);
+
   /// This rank ends with an error. Where all ranks report the same error within a second, the line is printed
   /// once, and each rank returns and must end with the code. Otherwise all ranks end here.
   void fail(int code, const std::string& line);

@@ -65,8 +65,23 @@ MpiWorld::MpiWorld(int* argc, char*** argv) {
   hosts = host_names(data, count);
 }
 
-void MpiWorld::finalize() {
+MpiGroup MpiWorld::split(int group) const {
   const std::lock_guard lock(mpi_mutex());
+  MpiGroup part;
+  for (MPI_Comm* comm : {&part.data, &part.all_gathers}) {
+    check(MPI_Comm_split(kWorld, group, rank, comm), "MPI_Comm_split");
+    check(MPI_Comm_set_errhandler(*comm, kReturnErrors), "MPI_Comm_set_errhandler");
+  }
+  check(MPI_Comm_rank(part.data, &part.rank), "MPI_Comm_rank");
+  check(MPI_Comm_size(part.data, &part.count), "MPI_Comm_size");
+  return part;
+}
+
+void MpiWorld::finalize(std::vector<MpiGroup> groups) {
+  const std::lock_guard lock(mpi_mutex());
+  for (MpiGroup& group : groups) {
+    for (MPI_Comm* comm : {&group.data, &group.all_gathers}) check(MPI_Comm_free(comm), "MPI_Comm_free");
+  }
   for (MPI_Comm* comm : {&data, &all_gathers, &messages}) check(MPI_Comm_free(comm), "MPI_Comm_free");
   check(MPI_Finalize(), "MPI_Finalize");
 }

@@ -1,5 +1,5 @@
 #pragma once
-// MPI's initialisation and finalisation, and the ranks and hosts of all processes.
+// MPI's initialisation and finalisation, and the ranks and hosts of all processes or of a group of them.
 
 #include <string>
 #include <vector>
@@ -8,21 +8,28 @@
 
 namespace gatelight::apps {
 
-/// Collectives of one communicator must be called in the same order on all ranks, so collectives that run at
-/// the same time have separate communicators.
-struct MpiWorld {
-  /// All processes call it. Throws MpiError where this MPI cannot be used by several threads.
-  MpiWorld(int* argc, char*** argv);
-  /// All processes call it, and none of them calls MPI afterwards.
-  void finalize();
-
+/// Collectives of one communicator must be called in the same order on all its ranks, so collectives that run
+/// at the same time have separate communicators.
+struct MpiGroup {
   int rank = 0;
   int count = 1;
+  MPI_Comm data = kNoComm;  ///< exchanges and broadcasts
+  MPI_Comm all_gathers = kNoComm;
+};
+
+struct MpiWorld : MpiGroup {
+  /// All processes call it. Throws MpiError where this MPI cannot be used by several threads.
+  MpiWorld(int* argc, char*** argv);
+  /// All processes call it, and none of them calls MPI afterwards. `groups`: those that were split off.
+  void finalize(std::vector<MpiGroup> groups);
+
+  /// The ranks that name the same group, in their order. All processes call it at about the same time: it
+  /// waits for them without heartbeats.
+  MpiGroup split(int group) const;
+
   int local_count = 1;             ///< processes of this machine
   std::vector<std::string> hosts;  ///< of each rank
-  MPI_Comm data = kNoComm;         ///< exchanges and broadcasts
-  MPI_Comm all_gathers = kNoComm;
-  MPI_Comm messages = kNoComm;  ///< heartbeats and errors
+  MPI_Comm messages = kNoComm;     ///< heartbeats and errors
 };
 
 /// "rank 3 of 5 (host)"

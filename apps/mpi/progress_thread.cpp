@@ -1,5 +1,6 @@
 #include "apps/mpi/progress_thread.h"
 
+#include <algorithm>
 #include <chrono>
 #include <exception>
 #include <mutex>
@@ -17,18 +18,29 @@ constexpr std::chrono::seconds kFirstAnswersWithin(10);
 
 constexpr int kFaultTag = 2;
 constexpr int kLeaveTag = 3;
+constexpr int kStopTag = 4;
 
 }  // namespace
 
 ProgressThread::ProgressThread(const MpiWorld& world, AllGathers& all_gathers, RankCallbacks callbacks,
                                double silence_seconds)
     : world_(world),
-      gatherings_(all_gathers),
+      gatherings_{&all_gathers},
       callbacks_(std::move(callbacks)),
       mailbox_(world.messages),
       heartbeats_(world, mailbox_, silence_seconds),
       errors_(world.count),
       thread_([this] { run(); }) {}
+
+void ProgressThread::stop_others(int signal) {
+  const std::lock_guard lock(mpi_mutex());
+  for (int rank = 0; rank < world_.count; ++rank) {
+    if (rank == world_.rank) continue;
+    renderer::Packer packer;
+    packer.add(signal);
+    mailbox_.send(rank, kStopTag, packer.take());
+  }
+}
 
 void ProgressThread::fail(const RankError& fault) {
   {
@@ -74,7 +86,9 @@ void ProgressThread::run() {
     while (step()) {
       const bool busy = any_waiting() || [&] {
         const std::lock_guard lock(mpi_mutex());
-        return !gatherings_.idle() || mailbox_.sending_any();
+        const bool gathers = std::any_of(gatherings_.begin(), gatherings_.end(),
+                                         [](const AllGathers* one) { return !one->idle(); });
+        return gathers || mailbox_.sending_any();
       }();
       std::this_thread::sleep_for(busy ? kBusyPause : kIdlePause);
     }
@@ -89,7 +103,7 @@ bool ProgressThread::step() {
   std::optional<ErrorConsensus::Verdict> verdict;
   {
     const std::lock_guard lock(mpi_mutex());
-    gatherings_.advance();
+    for (AllGathers* const one : gatherings_) one->advance();
     while (const std::optional<Mailbox::Message> message = mailbox_.receive()) receive(*message);
     lost = heartbeats_.step();
     verdict = errors_.take_verdict();
@@ -114,6 +128,9 @@ void ProgressThread::receive(const Mailbox::Message& message) {
       break;
     case kLeaveTag:
       may_leave_ = true;
+      break;
+    case kStopTag:
+      callbacks_.on_stop(renderer::Unpacker(message.bytes).read<int>());
       break;
     default:
       break;

@@ -6,6 +6,7 @@
 #include <functional>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "apps/mpi/all_gather.h"
 #include "apps/mpi/callbacks.h"
@@ -25,6 +26,12 @@ class ProgressThread {
   ProgressThread(const ProgressThread&) = delete;
   ProgressThread& operator=(const ProgressThread&) = delete;
 
+  /// Advances these all-gathers too. The caller holds the mutex.
+  void serve(AllGathers& all_gathers) { gatherings_.push_back(&all_gathers); }
+
+  /// Asks all other ranks to stop, as if they had received this signal.
+  void stop_others(int signal);
+
   /// Reports the error to rank 0. Returns where all ranks have the same error, else the program ends here.
   void fail(const RankError& fault);
 
@@ -42,7 +49,7 @@ class ProgressThread {
   [[noreturn]] void abort(int code, const std::function<void()>& print);
 
   const MpiWorld& world_;
-  AllGathers& gatherings_;
+  std::vector<AllGathers*> gatherings_;
   const RankCallbacks callbacks_;
   Mailbox mailbox_;
   Heartbeats heartbeats_;

@@ -8,6 +8,7 @@
 
 #include "apps/settings/camera_names.h"
 #include "apps/settings/file_names.h"
+#include "apps/settings/frame_flags.h"
 #include "apps/settings/option_table.h"
 #include "apps/settings/picture_output.h"
 #include "apps/settings/view_file.h"
@@ -269,7 +270,9 @@ void complete_settings(RenderSettings& settings) {
   complete_aovs(settings.render, settings.frames.range.has_value());
   settings.render.denoise.library = oidn_place(settings.render.denoise.library);
   check_checkpoint(settings);
+  check_frame_groups(settings);
   check_frame_names(settings);
+  check_film(settings);
   check_stdout(settings.outputs, settings.stats);
   check_camera_names(settings);
   check_file_names({&settings, 1});
@@ -297,6 +300,7 @@ void check_outputs(const RenderSettings& settings) {
   if (!settings.stats.empty() && settings.stats != "-") check_writable(settings.stats);
   if (const std::string& cache = settings.render.cache.cache_out; !cache.empty()) check_writable(cache);
   if (!settings.render.checkpoint.file.empty()) check_writable(settings.render.checkpoint.file);
+  if (!settings.frames.film.empty()) check_writable(settings.frames.film);
 }
 
 }  // namespace gatelight::apps

@@ -61,6 +61,7 @@ void check_file_names(std::span<const RenderSettings> pictures) {
   }
   names.write("--cache-out", pictures.front().render.cache.cache_out, "--cache-in");
   names.write("--checkpoint", pictures.front().render.checkpoint.file);
+  names.write("--preview-video", pictures.front().frames.film);
 }
 
 }  // namespace gatelight::apps

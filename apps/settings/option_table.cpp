@@ -20,6 +20,7 @@ constexpr RealRange kStops{-100.0, 100.0};
 constexpr RealRange kSeconds{-1e9, 1e9};
 constexpr RealRange kFps{1e-3, 1e6};
 constexpr IntegerRange kTurns{0, 1 << 20};
+constexpr IntegerRange kGroups{1, 1 << 20};
 constexpr IntegerRange kScenes{-1, 1 << 30};
 constexpr RealRange kKelvin{1667.0, 25000.0};
 constexpr Choice<int> kBits[] = {{"8", 8}, {"16", 16}};
@@ -116,7 +117,7 @@ void add_load_options(OptionGroup& group, scene::LoadOptions& load) {
 }
 
 void add_frame_options(OptionGroup& group, FrameSettings& frames) {
-  auto& [range, fps, turntable, shutter] = frames;
+  auto& [range, fps, turntable, shutter, film, groups] = frames;
   const auto add = [&](Option option) {
     const auto value = std::move(option.value);
     option.value = [value, &range = range]() -> OptionValue { return range ? value() : OptionValue(); };
@@ -141,6 +142,14 @@ void add_frame_options(OptionGroup& group, FrameSettings& frames) {
        },
        .read = [&shutter =
                     shutter](const std::string& text) { shutter = parse_shutter("--shutter", text); }}));
+  group.add(in_recipe(not_in_sweep(any_word("preview-video", film, "FILE",
+                                            "Film of the frames at --fps, .mp4, .mkv, .mov, .webm or .gif, "
+                                            "made at the end by an installed ffmpeg")),
+                      InRecipe::never));
+  group.add(in_recipe(not_in_sweep(number("frame-groups", groups, kGroups, "N",
+                                          "Groups of the ranks of gatelight-mpi: each renders every N-th "
+                                          "frame; only where frames do not depend on each other")),
+                      InRecipe::never));
 }
 
 Option preset_option(std::optional<CachePreset>& preset) {

@@ -43,6 +43,10 @@ void ignore_write_signals() {
   install(SIGXFSZ, SIG_IGN, 0);
 }
 
+void request_stop(int signal) {
+  on_stop(signal);
+}
+
 int stop_signal() {
   return stop_requested.load();
 }

@@ -12,6 +12,9 @@ void install_signal_handlers();
 /// and does not kill the program.
 void ignore_write_signals();
 
+/// Requests the end as this signal does.
+void request_stop(int signal);
+
 /// The first signal that requested the end; 0: none.
 int stop_signal();
 

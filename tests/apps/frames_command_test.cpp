@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -108,6 +109,30 @@ TEST_F(Frames, AFailureOfOneDoesNotLoseTheOthers) {
   EXPECT_NE(run.err.find("frame 1 failed: cannot write"), std::string::npos) << run.err;
   EXPECT_TRUE(std::filesystem::exists(path("f-0.exr")));
   EXPECT_TRUE(std::filesystem::exists(path("f-2.exr")));
+}
+
+TEST_F(Frames, AreShownWithTheExposureOfTheFirst) {
+  const std::vector<std::string> words = {
+      "render", GATELIGHT_SOURCE_DIR "/data/moving-room.glb", "--size", "40x24", "--spp", "2", "--fps", "6"};
+  const auto run = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), words.begin(), words.end());
+    return run_gatelight(more);
+  };
+  const Output chosen = run({"--frames", "0:1", "--exposure", "auto", "-o", path("a-%d.png"), "--stats",
+                             path("a-%d.json"), "--checkpoint", path("state")});
+  ASSERT_EQ(chosen.exit_code, 0) << chosen.err;
+  const auto exposure = [&](const char* file) {
+    return nlohmann::json::parse(read_file(path(file)))["exposure"].get<float>();
+  };
+  EXPECT_NE(exposure("a-0.json"), 0.0f);
+  EXPECT_EQ(exposure("a-1.json"), exposure("a-0.json"));
+  const std::string stops = std::to_string(exposure("a-0.json"));
+  ASSERT_EQ(run({"--frames", "0:1", "--exposure", stops, "-o", path("b-%d.png")}).exit_code, 0);
+  expect_same_file("a-1.png", "b-1.png");
+  const Output rest = run({"--frames", "0:2", "--exposure", "auto", "-o", path("a-%d.png"), "--stats",
+                           path("a-%d.json"), "--checkpoint", path("state"), "--resume"});
+  ASSERT_EQ(rest.exit_code, 0) << rest.err;
+  EXPECT_EQ(exposure("a-2.json"), exposure("a-0.json"));
 }
 
 TEST_F(Frames, TellTheirProgress) {

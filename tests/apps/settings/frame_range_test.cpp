@@ -56,6 +56,23 @@ TEST(FrameFlags, ExcludeWhatHasNoMeaningWithThem) {
   tests::expect_message(refused({"--frames", "0:3", "--time", "1"}), {"--time", "--frames"});
   tests::expect_message(refused({"--frames", "0:3"}), {"--output", "%04d"});
   tests::expect_message(refused({"--frames", "0:3", "--camera", "all"}), {"--camera", "--frames"});
+  tests::expect_message(refused({"--preview-video", "a.mp4"}), {"--preview-video", "--frames"});
+  tests::expect_message(refused({"--frames", "4", "--preview-video", "a.avi"}),
+                        {"--preview-video", "a.avi", ".mp4"});
+  tests::expect_message(refused({"--frames", "4", "--preview-video", "a%d.mp4"}),
+                        {"--preview-video", "a%d.mp4"});
+  const auto groups = [&](std::initializer_list<const char*> flags) {
+    std::vector<const char*> all = {"--turntable", "4", "--frame-groups", "3"};
+    all.insert(all.end(), flags);
+    return refused_flags({all.begin(), all.end()});
+  };
+  tests::expect_message(refused({"--frame-groups", "2"}), {"--frame-groups", "--frames"});
+  tests::expect_message(refused({"--frames", "4", "--frame-groups", "2"}), {"--frame-groups", "2", "1"});
+  tests::expect_message(groups({"--integrator", "nrc"}), {"--frame-groups", "nrc", "depend"});
+  tests::expect_message(groups({"--denoiser", "auto"}), {"--frame-groups", "--temporal"});
+  tests::expect_message(groups({"--aov", "motion"}), {"--frame-groups", "motion"});
+  tests::expect_message(groups({"--checkpoint", "state"}), {"--frame-groups", "--checkpoint"});
+  EXPECT_THAT(groups({"--denoiser", "auto", "--temporal", "off"}), testing::StartsWith("--output"));
   EXPECT_EQ(refused({"--frames", "4"}), "") << "one frame needs no pattern";
   EXPECT_EQ(read_flags({"--turntable", "1"}).load.time, 0.0);
   EXPECT_EQ(read_flags({"--frames", "12:12", "--fps", "24"}).load.time, 0.5);

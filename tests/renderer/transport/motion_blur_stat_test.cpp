@@ -14,10 +14,10 @@
 namespace gatelight::renderer {
 namespace {
 
-constexpr int kWidth = 32, kHeight = 18, kBlock = 6;  // pixels
+constexpr int kWidth = 32, kHeight = 18, kBlock = 3;  // pixels
 constexpr int kTimes = 64;
-constexpr int kSeeds = 12;
-constexpr double kMiddle = 0.6, kOpen = 0.3;  // seconds
+constexpr int kSeeds = 32;
+constexpr double kMiddle = 0.6, kOpen = 0.5;  // seconds
 const double kFamily = 1e-4;
 
 RenderOptions options_of(int spp) {
