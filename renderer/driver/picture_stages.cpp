@@ -74,6 +74,12 @@ Cryptomattes make_cryptomattes(const RenderContext& context, double& seconds) {
   return mattes;
 }
 
+/// Whether a frame takes over light of the one before. A pixel of a blurred object shows what is behind it, too.
+bool carries_light(const PreparedPicture& picture) {
+  const bool blurs = picture.scene.shutter.is_open && picture.scene.motion.instances;
+  return picture.denoiser && picture.options.denoise.temporal && picture.scale.factor() == 1 && !blurs;
+}
+
 FinishedPicture finish(const RenderContext& context, Film& film, bool stopped, RenderStatistics& statistics,
                        FrameMemory* memory) {
   const PreparedPicture& picture = context.picture;
@@ -88,7 +94,7 @@ FinishedPicture finish(const RenderContext& context, Film& film, bool stopped, R
     };
     Finishing how = finishing(picture, spp, progress);
     std::optional<Reuse> reuse;
-    if (memory && picture.denoiser && picture.options.denoise.temporal && picture.scale.factor() == 1) {
+    if (memory && carries_light(picture)) {
       reuse = picture.arena.execute([&] { return memory->reuse(picture, film); });
       statistics.reused = reuse->share;
       how.color = &reuse->color;
