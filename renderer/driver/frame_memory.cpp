@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "renderer/cache/cache_file.h"
-#include "renderer/cache/cache_model.h"
+#include "renderer/driver/cache_sessions.h"
 #include "renderer/driver/frame_file.h"
 #include "renderer/settings/enum_names.h"
 #include "renderer/settings/resolved_options.h"
@@ -27,24 +27,14 @@ void FrameMemory::begin(const PreparedPicture& picture, DistributedTiles& tiles,
   const auto pixels = static_cast<std::uint64_t>(picture.region.width()) *
                       static_cast<std::uint64_t>(picture.region.height());
   fresh_steps = options.cache.train_steps.value_or(choose_training_steps(options, pixels));
-  const neural::TrainingOptions learning = training_options(options);
-  picture.arena.execute([&] {
-    const auto make = [&](const CacheSetup* setup, const std::function<void(const neural::Model&)>& expect) {
-      cache = std::make_unique<CacheSession>(*picture.world, picture.camera, picture.region, options, setup,
-                                             expect, &tiles.owners());
-    };
-    if (!file_name.empty()) {
-      CacheFile file(file_name);
-      file.expect(picture.cache_meaning(), fingerprint, picture.scene.instances.size());
-      make(&file.setup(), [&](const neural::Model& model) { file.expect_model(model, learning); });
-      cache->import_state(file.read_state(cache->model(), learning, frame_tensors()));
-    } else if (scouted) {
-      const ScoutReport report = scouting.report(picture.scene, options);
-      make(&report.setup, nullptr);
-    } else {
-      make(nullptr, nullptr);
-    }
-  });
+  if (!file_name.empty()) {
+    cache = read_session(picture, tiles, file_name, fingerprint, frame_tensors());
+  } else if (scouted) {
+    const ScoutReport report = picture.arena.execute([&] { return scouting.report(picture.scene, options); });
+    cache = make_session(picture, tiles, &report.setup);
+  } else {
+    cache = make_session(picture, tiles, nullptr);
+  }
 }
 
 void FrameMemory::restore(const PreparedPicture& picture, const std::filesystem::path& path) {

@@ -74,7 +74,8 @@ Cryptomattes make_cryptomattes(const RenderContext& context, double& seconds) {
   return mattes;
 }
 
-/// Whether a frame takes over light of the one before. A pixel of a blurred object shows what is behind it, too.
+/// Whether a frame takes over light of the one before. A pixel of a blurred object shows what is behind it,
+/// too.
 bool carries_light(const PreparedPicture& picture) {
   const bool blurs = picture.scene.shutter.is_open && picture.scene.motion.instances;
   return picture.denoiser && picture.options.denoise.temporal && picture.scale.factor() == 1 && !blurs;

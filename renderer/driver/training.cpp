@@ -8,6 +8,7 @@
 #include "renderer/cache/cache_file.h"
 #include "renderer/cache/cache_model.h"
 #include "renderer/distributed/collectives.h"
+#include "renderer/driver/cache_sessions.h"
 #include "renderer/driver/time_budget.h"
 #include "renderer/settings/resolved_options.h"
 
@@ -17,8 +18,8 @@ namespace {
 /// A cache of less steps is worse than none, so a time limit leaves at least these.
 constexpr std::uint64_t kLeastSteps = 16;
 
-/// Each frame of an animation trains this share of the steps of a cache that knows nothing, and at least these. Their
-/// paths are samples of the picture, and what is learned adds up over the frames (README.md).
+/// Each frame of an animation trains this share of the steps of a cache that knows nothing, and at least
+/// these. Their paths are samples of the picture, and what is learned adds up over the frames (README.md).
 constexpr int kShareOfFresh = 2;
 constexpr int kLeastKept = 32;
 /// After a change of the light the optimiser learns as fast as after so many steps.
@@ -35,30 +36,20 @@ Training::Training(const RenderContext& context, Checkpoint* found)
       steps_chosen_(context.picture.steps_chosen) {
   const PreparedPicture& picture = context.picture;
   const CacheOptions& cache = options_.cache;
-  const neural::TrainingOptions learning = training_options(options_);
-  const auto make_session = [&](const CacheSetup* setup, const auto& expect_model) {
-    if (!setup && context.callbacks.progress)
-      context.callbacks.progress({.phase = Phase::scout, .spp = options_.spp});
-    picture.arena.execute([&] {
-      session_ = std::make_unique<CacheSession>(*picture.world, picture.camera, picture.region, options_,
-                                                setup, expect_model, &context.tiles.owners());
-    });
-  };
   if (!cache.cache_in.empty() || !cache.cache_out.empty()) fingerprint_ = picture.fingerprint();
   if (found) {
-    make_session(&found->cache_setup(),
-                 [&](const neural::Model& model) { found->expect_model(model, learning); });
+    const neural::TrainingOptions learning = training_options(options_);
+    session_ = make_session(picture, context.tiles, &found->cache_setup(),
+                            [&](const neural::Model& model) { found->expect_model(model, learning); });
     session_->import_state(found->read_cache(session_->model(), learning));
     first_step_ = found->progress().first_step;
     complete_ = found->progress().phase == Phase::render;
   } else if (!cache.cache_in.empty()) {
-    CacheFile file(cache.cache_in);
-    file.expect(picture.cache_meaning(), fingerprint_, picture.scene.instances.size());
-    make_session(&file.setup(), [&](const neural::Model& model) { file.expect_model(model, learning); });
-    session_->import_state(file.read_state(session_->model(), learning));
+    session_ = read_session(picture, context.tiles, cache.cache_in, fingerprint_);
     first_step_ = session_->steps();
   } else {
-    make_session(nullptr, nullptr);
+    if (context.callbacks.progress) context.callbacks.progress({.phase = Phase::scout, .spp = options_.spp});
+    session_ = make_session(picture, context.tiles, nullptr);
   }
 }
 

@@ -211,12 +211,6 @@ class Loader {
       if (scene.motion.lights) take_lights(graph, moved);
       states.add(moved);
       if (!scene.motion.instances) continue;
-      for (std::size_t i = 0; i < scene.instances.size(); ++i) {
-        Instance instance = scene.instances[i];
-        if (!instance.moves) continue;
-        put(element(graph.placements, instance.placement), scene, instance);
-        states.add_transform(i, instance.transform);
-      }
       load_each(
           scene.meshes.size(),
           [&](std::size_t m, Warnings& warnings) {
@@ -225,6 +219,16 @@ class Loader {
               states.add_vertices(m, load_part(graph, static_cast<std::size_t>(part), scene, warnings));
           },
           warnings_);
+      Box bounds;
+      for (std::size_t i = 0; i < scene.instances.size(); ++i) {
+        Instance instance = scene.instances[i];
+        if (!instance.moves) continue;
+        put(element(graph.placements, instance.placement), scene, instance);
+        states.add_transform(i, instance.transform);
+        for (const Vec3& p : states.positions(static_cast<std::size_t>(instance.mesh)))
+          bounds.extend(instance.transform * p);
+      }
+      check_bounds(scene, bounds);
     }
     scene.shutter = states.finish();
   }

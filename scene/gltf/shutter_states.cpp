@@ -32,7 +32,7 @@ bool keep_moving(std::vector<std::vector<State>>& lists) {
 
 }  // namespace
 
-ShutterStates::ShutterStates(const Scene& scene) {
+ShutterStates::ShutterStates(const Scene& scene) : scene_(scene) {
   motion_.is_open = true;
   motion_.transforms.resize(scene.instances.size());
   motion_.vertices.resize(scene.meshes.size());
@@ -55,6 +55,11 @@ void ShutterStates::add_transform(std::size_t instance, const Affine& transform)
 void ShutterStates::add_vertices(std::size_t mesh, Mesh&& deformed) {
   motion_.vertices[mesh].push_back(
       {std::move(deformed.positions), std::move(deformed.normals), std::move(deformed.tangents)});
+}
+
+const PaddedVector<Vec3>& ShutterStates::positions(std::size_t mesh) const {
+  return motion_.vertices[mesh].empty() ? scene_.meshes[mesh].positions
+                                        : motion_.vertices[mesh].back().positions;
 }
 
 ShutterMotion ShutterStates::finish() {

@@ -9,6 +9,7 @@ namespace gatelight::scene::gltf {
 /// Takes kShutterKeys states, in order.
 class ShutterStates {
  public:
+  /// The scene must outlive this object.
   explicit ShutterStates(const Scene& scene);
 
   /// The cameras of `moved`, and its lights, which may be none.
@@ -17,10 +18,14 @@ class ShutterStates {
   /// May be called for several meshes at once.
   void add_vertices(std::size_t mesh, Mesh&& deformed);
 
+  /// Of the last state of the mesh.
+  const PaddedVector<Vec3>& positions(std::size_t mesh) const;
+
   /// Drops what stood still.
   ShutterMotion finish();
 
  private:
+  const Scene& scene_;
   ShutterMotion motion_;
 };
 

@@ -33,9 +33,9 @@ RenderOptions small_frames() {
 
 /// A file that is open, with a renderer of its scene.
 struct Player {
-  explicit Player(AnimatedFile made)
+  explicit Player(AnimatedFile made, double shutter = 0.0)
       : folder(),
-        file(made.write(folder), {.time = 0.0}),
+        file(made.write(folder), {.time = 0.0, .shutter = shutter}),
         scene(file.load()),
         renderer(scene, small_frames()) {
     renderer.begin_frames(0.0);
@@ -137,6 +137,29 @@ TEST(FramesAtExtremes, VerticesThatLeaveTheScene) {
   EXPECT_TRUE(all_finite(player.frame(3, 0.5))) << "the frames after it";
   report_extreme("vertices that leave the scene", "a triangle at 0, 9e8 and 1e12 m", "9e8 m: finite pictures",
                  "1e12 m: that frame fails, a vertex at ..., expected at most 1e+09 from the origin");
+}
+
+TEST(FramesAtExtremes, MotionWhileAShutterIsOpen) {
+  AnimatedFile turned = moving_triangle();
+  const auto seconds = turned.seconds({0, 1, 2, 3});
+  turned.move(0, "scale", seconds, turned.vectors({1, 1, 1, -1, 1, 1, 0, 0, 0, 1, 1e-30f, 1}));
+  Player inverted(turned, 1.0);
+  for (const double time : {0.0, 0.5, 1.0, 1.5, 2.5, 1e9})
+    EXPECT_TRUE(all_finite(inverted.frame(0, time))) << time;
+  AnimatedFile spinning = moving_triangle();
+  spinning.move(0, "rotation", spinning.seconds({0, 1, 2}),
+                spinning.quaternions({0, 0, 0, 1, 0, 0, 1, 0, 0, 0, 0, 1}));
+  Player spun(spinning, 1e6);
+  EXPECT_TRUE(all_finite(spun.frame(0, 0.0)));
+  AnimatedFile leaving = moving_triangle();
+  leaving.move(0, "translation", leaving.seconds({0, 1}), leaving.vectors({0, 0, 0, 1e12f, 0, 0}));
+  EXPECT_TRUE(all_finite(Player(leaving, 1e-4).frame(0, 0.0)));
+  Player gone(leaving);
+  SceneFile open(leaving.write(gone.folder), {.time = 0.0, .shutter = 0.5});
+  tests::expect_refusal<InputError>([&] { open.load(); }, {"1e+09"});
+  report_extreme("motion while a shutter is open",
+                 "mirrored, scaled to nothing, a shutter of 1e6 s, 1e12 m/s", "finite pictures",
+                 "a vertex beyond 1e9 m in the shutter: one line");
 }
 
 }  // namespace
