@@ -187,7 +187,7 @@ class Finisher {
     auto denoised = denoise(*f_.denoiser, samples(), {.prefilter = options_.denoise.prefilter}, f_.scale,
                             part(0.0, kShareOfPicture));
     if (!denoised) return std::nullopt;
-    if (f_.keep) f_.keep(*denoised);
+    if (f_.after_denoising) f_.after_denoising(*denoised);
     FinishedPicture result{.picture = layers(), .denoised = true};
     result.picture.layers.front().values = std::move(denoised->color);
     if (estimates_error()) {
@@ -208,19 +208,12 @@ class Finisher {
 
   /// Whether the film's samples are all of the picture.
   bool estimates_error() const {
-    return film_.samples_per_pixel() >= kSamplesForError && f_.color == nullptr;
+    return film_.samples_per_pixel() >= kSamplesForError && !f_.after_denoising;
   }
 
   /// The samples, with an alpha where the background is separate.
   NoisyPicture samples() const {
     NoisyPicture picture = noisy(film_, options_, Plane::mean);
-    if (f_.color) {
-      const std::size_t row = 3 * static_cast<std::size_t>(film_.rect().width());
-      picture.color = [&color = *f_.color, row](int first, int end) {
-        const float* const begin = color.data() + static_cast<std::size_t>(first) * row;
-        return std::vector<float>(begin, begin + static_cast<std::size_t>(end - first) * row);
-      };
-    }
     if (options_.background.is_separate())
       picture.alpha = [this](int first, int end) { return rows_of_alpha(film_, shadows_, first, end); };
     return picture;
@@ -234,7 +227,6 @@ class Finisher {
   /// All layers that are not denoised.
   Picture layers() const {
     Picture picture = film_.resolve();
-    if (f_.color) picture.layers.front().values = *f_.color;
     for (Layer& layer : picture.layers) scale_layer(layer, film_, f_.scale);
     const PixelRect rect = picture_rect(film_, f_.scale);
     picture.width = rect.width();

@@ -36,12 +36,10 @@ struct Finishing {
   ScaleDown scale;                     ///< from the film to the picture
   CaughtShadows shadows;               ///< empty: none
   DenoiseProgress progress;            ///< false cancels denoising
-  /// 3 floats a pixel in place of the film's means: with samples of earlier frames; null: none. There is no
-  /// estimate of the error then.
-  const std::vector<float>* color = nullptr;
-  std::optional<Layer> motion;  ///< Aov::motion
-  /// Receives what is denoised, before a background is put behind it; empty: not needed.
-  std::function<void(const DenoisedRows& denoised)> keep;
+  std::optional<Layer> motion;         ///< Aov::motion
+  /// Changes what is denoised, before a background is put behind it; empty: not needed. There is no estimate
+  /// of the error then.
+  std::function<void(DenoisedRows& denoised)> after_denoising;
 };
 
 /// The finished picture with the output variables of the options. The film keeps film_contents(options).

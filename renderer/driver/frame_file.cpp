@@ -16,9 +16,8 @@ namespace gatelight::renderer {
 namespace {
 
 constexpr const char* kFrameFormat = "gatelight-frame";
-constexpr int kFrameVersion = 1;
+constexpr int kFrameVersion = 2;
 constexpr const char* kFrameColor = "frame.color";
-constexpr const char* kFrameAlbedo = "frame.albedo";
 constexpr const char* kFrameSamples = "frame.samples";
 constexpr const char* kNumber = "frame.number";
 constexpr const char* kLayoutSeconds = "frame.layout_seconds";
@@ -57,7 +56,6 @@ OtherContent frame_content(const FrameStatus& status, const FrameLight& light) {
         {name, TensorType::f32, {shape.begin(), shape.end()}, std::as_bytes(std::span(values))});
   };
   add(kFrameColor, light.color, 3);
-  add(kFrameAlbedo, light.albedo, 3);
   add(kFrameSamples, light.samples, 1);
   return content;
 }
@@ -73,7 +71,7 @@ void write_frame_file(const std::filesystem::path& path, const FrameStatus& stat
 }
 
 std::set<std::string> frame_tensors() {
-  return {kFrameColor, kFrameAlbedo, kFrameSamples};
+  return {kFrameColor, kFrameSamples};
 }
 
 FrameFile::FrameFile(const std::filesystem::path& path) : file_(path) {
@@ -107,7 +105,6 @@ FrameLight FrameFile::read_light(const SceneFingerprint& scene, int width, int h
     }
   };
   read(kFrameColor, light.color, 3);
-  read(kFrameAlbedo, light.albedo, 3);
   read(kFrameSamples, light.samples, 1);
   return light;
 }

@@ -15,7 +15,7 @@ namespace gatelight::renderer {
 struct FrameLight {
   int width = 0;
   int height = 0;
-  std::vector<float> color, albedo, samples;
+  std::vector<float> color, samples;
 
   bool empty() const { return color.empty(); }
 };

@@ -51,7 +51,6 @@ void FrameMemory::restore(const PreparedPicture& picture, const std::filesystem:
                                               .rect = picture.region,
                                               .points = std::move(points.now),
                                               .color = std::move(light.color),
-                                              .albedo = std::move(light.albedo),
                                               .samples = std::move(light.samples)});
   if (!picture.scene.motion.any()) return;
   history->probes = picture.arena.execute([&] { return probe_light(*picture.world, history->points); });
@@ -63,17 +62,7 @@ Reuse FrameMemory::reuse(const PreparedPicture& picture, const Film& film) {
       trace_visible_points(*picture.world, picture.camera, rect, history ? &history->view : nullptr);
   std::vector<float> probes;
   if (picture.scene.motion.any()) probes = probe_light(*picture.world, points.now);
-  Reuse reuse;
-  if (history) {
-    reuse = reuse_samples(film, std::move(points), std::move(probes), *history);
-  } else {
-    reuse.points = std::move(points);
-    reuse.probes = std::move(probes);
-    reuse.color = film.plane(Plane::mean, rect.y0, rect.y1);
-    for (const RadianceSum& pixel : film.sums().radiance)
-      reuse.samples.push_back(static_cast<float>(pixel.count));
-  }
-  return reuse;
+  return reuse_samples(film, std::move(points), std::move(probes), history.get());
 }
 
 Layer FrameMemory::motion(const PreparedPicture& picture) {
@@ -98,12 +87,12 @@ Layer FrameMemory::motion(const PreparedPicture& picture) {
   return layer;
 }
 
-void FrameMemory::keep(const PreparedPicture& picture, const DenoisedRows& denoised, const Reuse& reuse) {
+void FrameMemory::keep(const PreparedPicture& picture, const std::vector<float>& denoised,
+                       const Reuse& reuse) {
   history = std::make_unique<History>(History{.view = {Moment(picture.scene), picture.camera},
                                               .rect = picture.region,
                                               .points = reuse.points.now,
-                                              .color = denoised.color,
-                                              .albedo = denoised.albedo,
+                                              .color = denoised,
                                               .samples = reuse.samples,
                                               .probes = reuse.probes});
 }
@@ -113,8 +102,7 @@ void FrameMemory::write(const PreparedPicture& picture, const std::filesystem::p
   const FrameStatus status{.frame = last_frame, .layout_seconds = layout_seconds, .exposure = exposure};
   FrameLight light;
   if (history) {
-    light = {history->rect.width(), history->rect.height(), history->color, history->albedo,
-             history->samples};
+    light = {history->rect.width(), history->rect.height(), history->color, history->samples};
   }
   if (!cache) return write_frame_file(path, status, light, fingerprint);
   write_cache_file(path, cache->export_state(), cache->model(), cache->learning(), picture.cache_meaning(),

@@ -31,7 +31,7 @@ struct FrameMemory {
   /// The layer of Aov::motion, and the view for that of the next frame. For the caller's arena.
   Layer motion(const PreparedPicture& picture);
   /// Keeps the frame for the next one.
-  void keep(const PreparedPicture& picture, const DenoisedRows& denoised, const Reuse& reuse);
+  void keep(const PreparedPicture& picture, const std::vector<float>& denoised, const Reuse& reuse);
   /// Renderer::begin_frames().
   void begin(const PreparedPicture& picture, DistributedTiles& tiles, double seconds,
              const std::filesystem::path& file);

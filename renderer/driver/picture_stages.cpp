@@ -98,8 +98,10 @@ FinishedPicture finish(const RenderContext& context, Film& film, bool stopped, R
     if (memory && carries_light(picture)) {
       reuse = picture.arena.execute([&] { return memory->reuse(picture, film); });
       statistics.reused = reuse->share;
-      how.color = &reuse->color;
-      how.keep = [&](const DenoisedRows& denoised) { memory->keep(picture, denoised, *reuse); };
+      how.after_denoising = [&](DenoisedRows& denoised) {
+        picture.arena.execute([&] { mix_light(*reuse, film.rect(), denoised.color); });
+        memory->keep(picture, denoised.color, *reuse);
+      };
     }
     if (memory && has(picture.options.aovs, Aov::motion))
       how.motion = picture.arena.execute([&] { return memory->motion(picture); });

@@ -19,11 +19,10 @@ constexpr float kDarkest = 0.02f;
 /// along the surface this many.
 constexpr float kMostAcross = 1.0f, kMostAlong = 3.0f;
 constexpr float kLeastCosine = 0.9f;
-/// A change of the surface's colour makes carried light at most so many times as bright: the colour of a lamp
-/// says nothing about its light.
-constexpr float kBrightest = 3.0f;
-/// Share of what an edge takes over: the earlier picture mixes its surfaces in other parts.
-constexpr float kAtEdges = 0.0f;
+/// Pixels so near an edge, in each direction, mix the light of surfaces: filters of pixels and the denoiser
+/// reach as far. What they show is not carried. A dark arch before a sunlit wall would grow brighter as it
+/// comes nearer.
+constexpr int kAroundEdge = 2;
 /// Pixels around, in each direction, whose probes are compared. Their light is the same up to the first
 /// relative change, and another from the second on.
 constexpr int kAroundProbe = 2;
@@ -32,6 +31,14 @@ constexpr float kUnchanged = 0.03f, kChanged = 0.2f;
 /// standard errors and this share of the light, and twice of both is too much.
 constexpr int kAround = 4;
 constexpr float kStandardErrors = 2.0f, kAllowed = 0.05f;
+/// Pixels around, in each direction, whose samples decide how bright the carried light is.
+constexpr int kAroundMatch = 24;
+/// The carried light is mixed in by its full share in means over so many pixels around, in each direction; by
+/// at most this share in what is finer.
+constexpr int kAroundLow = 4;
+constexpr float kMostHigh = 0.5f;
+/// Most change of these means.
+constexpr float kMostRatio = 2.0f;
 
 float factor(float albedo) {
   return albedo > kDarkest ? albedo : 1.0f;
@@ -70,7 +77,7 @@ struct Carried {
 class Carrier {
  public:
   Carrier(const Film& film, const VisiblePoints& points, const std::vector<float>& probes,
-          const History& history)
+          const History* history)
       : rect_(film.rect()),
         points_(points),
         probes_(probes),
@@ -81,10 +88,16 @@ class Carrier {
         carried_(film.pixels()) {}
 
   Reuse run() {
-    carry();
-    if (!probes_.empty() && !history_.probes.empty()) compare_probes();
-    compare_samples();
-    return blend();
+    edges_.resize(carried_.size());
+    for_each_pixel([&](std::size_t i) { edges_[i] = is_edge(i) ? 1.0f : 0.0f; });
+    box_filter(edges_, rect_.width(), rect_.height(), kAroundEdge);
+    if (history_) {
+      carry();
+      if (!probes_.empty() && !history_->probes.empty()) compare_probes();
+      compare_samples();
+      match_brightness();
+    }
+    return result();
   }
 
  private:
@@ -99,7 +112,7 @@ class Carrier {
   /// The mean of the four pixels around the earlier point, of those that show its surface.
   void carry() {
     for_each_pixel([&](std::size_t i) {
-      if (points_.now[i].hit && points_.earlier[i]) carried_[i] = carry(i);
+      if (points_.now[i].hit && points_.earlier[i] && !(edges_[i] > 0.0f)) carried_[i] = carry(i);
     });
   }
 
@@ -108,34 +121,28 @@ class Carrier {
     const EarlierPoint& earlier = *points_.earlier[i];
     const float x = earlier.pixel.x() - 0.5f, y = earlier.pixel.y() - 0.5f;
     const float left = std::floor(x), top = std::floor(y), u = x - left, v = y - top;
-    const PixelRect& r = history_.rect;
+    const PixelRect& r = history_->rect;
     Carried sum;
-    float weights = 0.0f, brightest = 0.0f;
+    float weights = 0.0f;
     for (int k = 0; k < 4; ++k) {
       const float px = left + static_cast<float>(k & 1), py = top + static_cast<float>(k >> 1);
       if (!(px >= static_cast<float>(r.x0) && px < static_cast<float>(r.x1) &&
             py >= static_cast<float>(r.y0) && py < static_cast<float>(r.y1)))
         continue;
       const std::size_t there = r.index(static_cast<int>(px), static_cast<int>(py));
-      if (!(history_.samples[there] > 0.0f) || !same_surface(history_.points[there], now, earlier)) continue;
+      if (!(history_->samples[there] > 0.0f) || !same_surface(history_->points[there], now, earlier))
+        continue;
       const float weight = ((k & 1) != 0 ? u : 1.0f - u) * ((k >> 1) != 0 ? v : 1.0f - v);
       weights += weight;
-      const float* const color = &history_.color[3 * there];
-      brightest += weight * std::max({color[0], color[1], color[2]});
-      sum.samples += weight * history_.samples[there];
-      if (!history_.probes.empty()) sum.probe += weight * history_.probes[there];
-      for (int c = 0; c < 3; ++c) {
-        const std::size_t from = 3 * there + static_cast<std::size_t>(c);
-        sum.color[c] += weight * history_.color[from] / factor(history_.albedo[from]);
-      }
+      sum.samples += weight * history_->samples[there];
+      if (!history_->probes.empty()) sum.probe += weight * history_->probes[there];
+      for (std::size_t c = 0; c < 3; ++c)
+        sum.color[static_cast<Eigen::Index>(c)] += weight * history_->color[3 * there + c];
     }
     if (!(weights > 0.01f)) return {};
-    for (int c = 0; c < 3; ++c)
-      sum.color[c] *= factor(albedo_[3 * i + static_cast<std::size_t>(c)]) / weights;
+    sum.color /= weights;
     sum.samples = std::min(sum.samples, kMostEarlier * samples(i)) * weights * same_gloss(now, earlier);
-    if (!(sum.color.maxCoeff() <= kBrightest * brightest / weights)) return {};
     sum.probe /= weights;
-    if (is_edge(i)) sum.samples *= kAtEdges;
     return sum;
   }
 
@@ -197,6 +204,32 @@ class Carrier {
     });
   }
 
+  /// Corrects the carried light by the mean ratio of the samples to it, as far as their noise lets it be
+  /// known: what a rough surface reflects changes slowly with the view.
+  void match_brightness() {
+    const std::size_t pixels = carried_.size();
+    std::vector<float> there(pixels), ratio(pixels), variance(pixels);
+    for_each_pixel([&](std::size_t i) {
+      const float before = luminance(carried_[i].color);
+      if (!(carried_[i].samples > 0.0f) || !(before > 0.0f)) return;
+      there[i] = 1.0f;
+      ratio[i] = luminance(Color(color_[3 * i], color_[3 * i + 1], color_[3 * i + 2])) / before;
+      const float light = light_of(carried_[i].color.data(), &albedo_[3 * i]);
+      variance[i] = variance_of_light(i) / (light * light);
+    });
+    for (std::vector<float>* plane : {&there, &ratio, &variance})
+      box_filter(*plane, rect_.width(), rect_.height(), kAroundMatch);
+    constexpr float kArea = (2 * kAroundMatch + 1) * (2 * kAroundMatch + 1);
+    for_each_pixel([&](std::size_t i) {
+      if (!(carried_[i].samples > 0.0f) || !(there[i] > 0.0f)) return;
+      const float difference = ratio[i] / there[i] - 1.0f;
+      const float noise = variance[i] / there[i] / (there[i] * kArea);
+      const float known = std::max(difference * difference - kStandardErrors * kStandardErrors * noise, 0.0f);
+      const float share = known > 0.0f ? known / (known + noise) : 0.0f;
+      carried_[i].color *= std::clamp(1.0f + share * difference, 1.0f / kMostRatio, kMostRatio);
+    });
+  }
+
   float samples(std::size_t i) const { return static_cast<float>(film_.sums().radiance[i].count); }
 
   /// The variance of the mean of a pixel's luminance, without the surface's colour.
@@ -217,30 +250,30 @@ class Carrier {
     return variance.maxCoeff();
   }
 
-  Reuse blend() const {
-    Reuse result{.color = color_, .samples = std::vector<float>(carried_.size())};
-    std::vector<std::uint8_t> taken(carried_.size());
+  Reuse result() const {
+    const std::size_t pixels = carried_.size();
+    Reuse result;
+    if (history_) result.color.resize(3 * pixels);
+    result.weight.resize(pixels);
+    result.samples.resize(pixels);
     for_each_pixel([&](std::size_t i) {
       const Carried& carried = carried_[i];
-      const float own = samples(i), all = own + carried.samples;
-      result.samples[i] = all;
+      result.samples[i] = edges_[i] > 0.0f ? 0.0f : samples(i) + carried.samples;
       if (!(carried.samples > 0.0f)) return;
-      taken[i] = 1;
-      for (int c = 0; c < 3; ++c) {
-        float& color = result.color[3 * i + static_cast<std::size_t>(c)];
-        color = (own * color + carried.samples * carried.color[c]) / all;
-      }
+      result.weight[i] = carried.samples / result.samples[i];
+      std::copy_n(carried.color.data(), 3, &result.color[3 * i]);
     });
-    result.share = static_cast<double>(std::count(taken.begin(), taken.end(), 1)) /
-                   static_cast<double>(std::max<std::size_t>(taken.size(), 1));
+    const auto taken =
+        std::count_if(result.weight.begin(), result.weight.end(), [](float w) { return w > 0.0f; });
+    result.share = static_cast<double>(taken) / static_cast<double>(std::max<std::size_t>(pixels, 1));
     return result;
   }
 
   PixelRect rect_;
   const VisiblePoints& points_;
   const std::vector<float>& probes_;
-  const History& history_;
-  std::vector<float> color_, albedo_;
+  const History* history_;  ///< null: there is none
+  std::vector<float> color_, albedo_, edges_;
   const Film& film_;
   std::vector<Carried> carried_;
 };
@@ -248,11 +281,43 @@ class Carrier {
 }  // namespace
 
 Reuse reuse_samples(const Film& film, VisiblePoints points, std::vector<float> probes,
-                    const History& history) {
+                    const History* history) {
   Reuse reuse = Carrier(film, points, probes, history).run();
   reuse.points = std::move(points);
   reuse.probes = std::move(probes);
   return reuse;
+}
+
+void mix_light(const Reuse& reuse, const PixelRect& rect, std::vector<float>& denoised) {
+  if (reuse.color.empty()) return;
+  const std::size_t pixels = reuse.weight.size();
+  const auto mean_around = [&](std::vector<float>& plane) {
+    box_filter(plane, rect.width(), rect.height(), kAroundLow);
+  };
+  std::vector<float> weight = reuse.weight, there(pixels);
+  for (std::size_t i = 0; i < pixels; ++i) there[i] = weight[i] > 0.0f ? 1.0f : 0.0f;
+  mean_around(weight);
+  mean_around(there);
+  for (std::size_t c = 0; c < 3; ++c) {
+    std::vector<float> before(pixels), now(pixels);
+    for (std::size_t i = 0; i < pixels; ++i) {
+      if (!(reuse.weight[i] > 0.0f)) continue;
+      before[i] = reuse.color[3 * i + c];
+      now[i] = denoised[3 * i + c];
+    }
+    mean_around(before);
+    mean_around(now);
+    for (std::size_t i = 0; i < pixels; ++i) {
+      if (!(there[i] > 0.0f) || !(now[i] > 0.0f)) continue;
+      const float ratio = std::clamp(before[i] / now[i], 1.0f / kMostRatio, kMostRatio);
+      float& color = denoised[3 * i + c];
+      const float as_bright = color * ratio, low = weight[i] / there[i];
+      const float high = std::min(reuse.weight[i], kMostHigh);
+      color += low * (as_bright - color);
+      if (high > 0.0f) color += high * (reuse.color[3 * i + c] - as_bright);
+      color = std::max(color, 0.0f);
+    }
+  }
 }
 
 }  // namespace gatelight::renderer

@@ -1,6 +1,5 @@
 #pragma once
-// The light of earlier frames, carried to the surfaces that the present frame shows. It is denoised: noise of
-// samples that is carried becomes streaks, which the denoiser takes for detail.
+// The light of earlier frames, carried to the surfaces that the present frame shows. Both are denoised first.
 
 #include <cstddef>
 #include <vector>
@@ -15,17 +14,17 @@ struct History {
   EarlierView view;
   PixelRect rect;
   std::vector<VisiblePoint> points;
-  std::vector<float> color;    ///< 3 floats a pixel: denoised
-  std::vector<float> albedo;   ///< 3 floats a pixel: of the guides
-  std::vector<float> samples;  ///< 1 float a pixel: their number, with those taken over
+  std::vector<float> color;    ///< 3 floats a pixel: the finished light
+  std::vector<float> samples;  ///< 1 float a pixel: their number, with those taken over; 0 near edges
   std::vector<float> probes;   ///< probe_light(); empty where nothing but the camera moves
 };
 
 struct Reuse {
   VisiblePoints points;
   std::vector<float> probes;   ///< of the points
-  std::vector<float> color;    ///< 3 floats a pixel: the mean of the film's samples and those taken over
-  std::vector<float> samples;  ///< 1 float a pixel: their number
+  std::vector<float> color;    ///< 3 floats a pixel: the carried light; empty: there is none
+  std::vector<float> weight;   ///< 1 float a pixel: its share in the mean with the frame's samples
+  std::vector<float> samples;  ///< 1 float a pixel: their number together; 0 near edges
   double share = 0.0;          ///< of the pixels that took samples over
 };
 
@@ -33,10 +32,14 @@ struct Reuse {
 /// but follow its changes later.
 inline constexpr float kMostEarlier = 12.0f;
 
-/// Takes over samples where the earlier frame shows the same surface in the same light. The light without the
-/// surface's colour is carried. `probes`: of the points; empty where nothing but the camera moves. Works in
-/// the caller's arena.
+/// Finds the light where the earlier frame shows the same surface in the same light. `probes`: of the points;
+/// empty where nothing but the camera moves. `history`: null for none. Works in the caller's arena.
 Reuse reuse_samples(const Film& film, VisiblePoints points, std::vector<float> probes,
-                    const History& history);
+                    const History* history);
+
+/// Mixes the carried light into a denoised frame: 3 floats for each pixel of `rect`. Means over some pixels
+/// take it by its weight; what is finer stays mostly that of the frame, because each time it is carried it is
+/// interpolated. Works in the caller's arena.
+void mix_light(const Reuse& reuse, const PixelRect& rect, std::vector<float>& denoised);
 
 }  // namespace gatelight::renderer
