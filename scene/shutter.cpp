@@ -39,12 +39,9 @@ std::array<Vec3, 3> world_triangle_at(const Scene& scene, std::size_t instance, 
   std::array<Vec3, 3> corners;
   for (std::size_t k = 0; k < 3; ++k) {
     const std::uint32_t corner = mesh.triangles[primitive][k];
-    Vec3 p = mesh.positions[corner];
-    if (!vertices.empty()) {
-      const StatesAround<DeformedVertices> around = states_around(vertices, time);
-      p = between(around.before.positions[corner], around.after.positions[corner], around.fraction);
-    }
-    corners[k] = transform * p;
+    corners[k] =
+        transform * (vertices.empty() ? mesh.positions[corner]
+                                      : attribute_at(vertices, time, corner, &DeformedVertices::positions));
   }
   return corners;
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "scene/scene.h"
@@ -16,6 +17,11 @@ inline constexpr int kShutterKeys = 9;
 
 /// The middle of the shutter: the time of the scene itself.
 inline constexpr float kShutterMiddle = 0.5f;
+
+/// The time of a state.
+constexpr float time_of_key(int key) {
+  return static_cast<float>(key) / (kShutterKeys - 1);
+}
 
 /// The states before and after a time, and how far it is between them, in [0, 1].
 template <typename State>
@@ -37,6 +43,14 @@ StatesAround<State> states_around(const std::vector<State>& states, float time) 
 template <typename Value>
 Value between(const Value& a, const Value& b, float fraction) {
   return Value((1.0f - fraction) * a + fraction * b);
+}
+
+/// An attribute of a vertex.
+template <typename Attribute>
+auto attribute_at(const std::vector<DeformedVertices>& states, float time, std::uint32_t vertex,
+                  Attribute DeformedVertices::*attribute) {
+  const StatesAround<DeformedVertices> around = states_around(states, time);
+  return between((around.before.*attribute)[vertex], (around.after.*attribute)[vertex], around.fraction);
 }
 
 Affine transform_at(const std::vector<Affine>& states, float time);

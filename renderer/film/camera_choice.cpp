@@ -226,8 +226,7 @@ std::vector<View> shutter_views(const scene::Scene& scene, const CameraOptions& 
   std::vector<View> views;
   CameraOptions moved = options;
   for (int key = 0; key < scene::kShutterKeys; ++key) {
-    const float time = static_cast<float>(key) / (scene::kShutterKeys - 1);
-    moved.turn = options.turn + (time - scene::kShutterMiddle) * options.turn_in_shutter;
+    moved.turn = options.turn + (scene::time_of_key(key) - scene::kShutterMiddle) * options.turn_in_shutter;
     std::vector<scene::Camera> states = scene.cameras;
     for (std::size_t i = 0; i < states.size(); ++i) {
       if (!cameras[i].empty()) states[i] = cameras[i][static_cast<std::size_t>(key)];

@@ -10,7 +10,6 @@
 #include <utility>
 
 #include "renderer/surface/interpolate.h"
-#include "renderer/surface/rounding.h"
 #include "scene/triangle_normal.h"
 
 namespace gatelight::renderer {
@@ -66,16 +65,19 @@ EmissiveTriangle make_triangle(const scene::Scene& scene, std::uint32_t instance
 }  // namespace
 
 EmissiveTriangles::EmissiveTriangles(const scene::Scene& scene, const Textures& textures)
-    : scene_(scene), textures_(textures), first_(scene.instances.size(), kNone) {
+    : scene_(scene),
+      textures_(textures),
+      roundings_(scene.instances.size()),
+      first_(scene.instances.size(), kNone) {
   for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
     const scene::Material& material = scene.material_of(scene.instances[i]);
     if (!material.emits() || material.unlit || scene.instances[i].hidden) continue;
     first_[i] = static_cast<std::uint32_t>(triangles_.size());
     moves_ |= scene::is_blurred(scene, i);
-    const PlacementRounding rounding(scene.instances[i]);
+    roundings_[i] = PlacementRounding(scene, i);
     const std::size_t count = scene.mesh_of(scene.instances[i]).triangles.size();
     for (std::uint32_t primitive = 0; primitive < count; ++primitive) {
-      triangles_.push_back(make_triangle(scene, i, primitive, rounding));
+      triangles_.push_back(make_triangle(scene, i, primitive, roundings_[i]));
     }
   }
   intensities_.resize(triangles_.size());
@@ -88,7 +90,7 @@ EmissiveTriangle EmissiveTriangles::moved_to(const EmissiveTriangle& triangle, f
   EmissiveTriangle moved = triangle;
   if (!scene::is_blurred(scene_, triangle.instance)) return moved;
   place(scene::world_triangle_at(scene_, triangle.instance, triangle.primitive, time),
-        PlacementRounding(scene_.instances[triangle.instance]), moved);
+        roundings_[triangle.instance], moved);
   return moved;
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "renderer/light/triangle_sampling.h"
+#include "renderer/surface/rounding.h"
 #include "renderer/surface/texture.h"
 #include "scene/scene.h"
 #include "scene/shutter.h"
@@ -76,6 +77,7 @@ class EmissiveTriangles {
   const scene::Scene& scene_;
   const Textures& textures_;
   bool moves_ = false;
+  std::vector<PlacementRounding> roundings_;  ///< of instances that emit
   std::vector<EmissiveTriangle> triangles_;
   std::vector<double> intensities_;   ///< after construction only the tree's builder reads them
   std::vector<std::uint32_t> first_;  ///< for each instance the index of its first triangle, or kNone

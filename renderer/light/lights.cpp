@@ -80,10 +80,15 @@ struct Share {
   }
 };
 
-/// Bounds of a light over the states of an open shutter. `bounds`: in the middle.
-LightBounds swept(LightBounds bounds, const std::vector<LightBounds>& states) {
+/// Bounds of a light over the states of an open shutter. `bounds`: in the middle; bounds_at(time): at a time.
+template <typename BoundsAt>
+LightBounds swept(LightBounds bounds, const BoundsAt& bounds_at) {
+  std::vector<LightBounds> states;
   Box box(bounds.centre);
-  for (const LightBounds& state : states) box.extend(state.centre);
+  for (int key = 0; key < scene::kShutterKeys; ++key) {
+    states.push_back(bounds_at(scene::time_of_key(key)));
+    box.extend(states.back().centre);
+  }
   bounds.centre = box.center();
   bounds.radius = 0.0f;
   // The normals of a triangle between two states may lie a little outside the arc between theirs.
@@ -143,22 +148,16 @@ LightBounds Lights::bounds_of_triangle(std::size_t number) const {
   const double intensity = triangles_.intensity(number);
   const LightBounds middle = bounds_of(triangles_[number], intensity);
   if (!(intensity > 0.0) || !triangles_.moves(number)) return middle;
-  std::vector<LightBounds> states;
-  for (int key = 0; key < scene::kShutterKeys; ++key) {
+  return swept(middle, [&](float time) {
     EmissiveTriangle moved;
-    const float time = static_cast<float>(key) / (scene::kShutterKeys - 1);
-    states.push_back(bounds_of(triangles_.at(number, time, moved), intensity));
-  }
-  return swept(middle, states);
+    return bounds_of(triangles_.at(number, time, moved), intensity);
+  });
 }
 
 LightBounds Lights::bounds_of_placed(std::size_t number) const {
   const LightBounds middle = bounds_of(placed_[number]);
   if (placed_states_.empty() || placed_states_[number].empty()) return middle;
-  std::vector<LightBounds> states;
-  for (int key = 0; key < scene::kShutterKeys; ++key)
-    states.push_back(bounds_of(placed_at(number, static_cast<float>(key) / (scene::kShutterKeys - 1))));
-  return swept(middle, states);
+  return swept(middle, [&](float time) { return bounds_of(placed_at(number, time)); });
 }
 
 PunctualLight Lights::placed_at(std::size_t number, float time) const {

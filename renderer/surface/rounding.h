@@ -15,8 +15,13 @@ struct PlacementRounding {
   float condition = 1.0f;    ///< of the transform: how much it amplifies the error of an intersection
 
   PlacementRounding() = default;
-  explicit PlacementRounding(const scene::Instance& instance) {
-    if (!instance.baked) *this = PlacementRounding(instance.transform);
+  /// Of all states of an open shutter.
+  PlacementRounding(const scene::Scene& scene, std::size_t instance) {
+    const scene::Instance& placed = scene.instances[instance];
+    if (placed.baked) return;
+    *this = PlacementRounding(placed.transform);
+    if (!scene.shutter.instances) return;
+    for (const Affine& transform : scene.shutter.transforms[instance]) extend(PlacementRounding(transform));
   }
   explicit PlacementRounding(const Affine& transform) {
     translation = transform.translation().cwiseAbs().maxCoeff();

@@ -193,19 +193,13 @@ Surfaces::Surfaces(const scene::Scene& scene, const Textures& textures) : textur
     if (!instance.baked) {
       view.transform = instance.transform;
       view.normal_matrix = normal_matrix(instance.transform);
-      view.rounding = PlacementRounding(instance);
+      view.rounding = PlacementRounding(scene, i);
     }
-    if (scene::is_blurred(scene, i))
-      open_shutter(scene.shutter, i, static_cast<std::size_t>(instance.mesh), view);
+    if (!scene.shutter.instances) continue;
+    const auto& vertices = scene.shutter.vertices[static_cast<std::size_t>(instance.mesh)];
+    if (!vertices.empty()) view.vertices = &vertices;
+    if (!scene.shutter.transforms[i].empty()) view.transforms = &scene.shutter.transforms[i];
   }
-}
-
-void Surfaces::open_shutter(const scene::ShutterMotion& shutter, std::size_t instance, std::size_t mesh,
-                            View& view) {
-  if (!shutter.vertices[mesh].empty()) view.vertices = &shutter.vertices[mesh];
-  if (shutter.transforms[instance].empty()) return;
-  view.transforms = &shutter.transforms[instance];
-  for (const Affine& transform : *view.transforms) view.rounding.extend(PlacementRounding(transform));
 }
 
 Surfaces::View Surfaces::View::at(float shutter_time) const {
@@ -218,31 +212,18 @@ Surfaces::View Surfaces::View::at(float shutter_time) const {
   return moved;
 }
 
-namespace {
-
-/// A vertex attribute at a time of the shutter.
-template <typename Vector>
-auto attribute_at(const std::vector<scene::DeformedVertices>& states, float time, std::uint32_t vertex,
-                  Vector scene::DeformedVertices::*attribute) {
-  const auto around = scene::states_around(states, time);
-  return scene::between((around.before.*attribute)[vertex], (around.after.*attribute)[vertex],
-                        around.fraction);
-}
-
-}  // namespace
-
 Vec3 Surfaces::View::position(std::uint32_t vertex) const {
-  return vertices ? attribute_at(*vertices, time, vertex, &scene::DeformedVertices::positions)
+  return vertices ? scene::attribute_at(*vertices, time, vertex, &scene::DeformedVertices::positions)
                   : mesh->positions[vertex];
 }
 
 Vec3 Surfaces::View::normal(std::uint32_t vertex) const {
-  return vertices ? attribute_at(*vertices, time, vertex, &scene::DeformedVertices::normals)
+  return vertices ? scene::attribute_at(*vertices, time, vertex, &scene::DeformedVertices::normals)
                   : mesh->normals[vertex];
 }
 
 Vec4 Surfaces::View::tangent(std::uint32_t vertex) const {
-  return vertices ? attribute_at(*vertices, time, vertex, &scene::DeformedVertices::tangents)
+  return vertices ? scene::attribute_at(*vertices, time, vertex, &scene::DeformedVertices::tangents)
                   : mesh->tangents[vertex];
 }
 

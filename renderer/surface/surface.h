@@ -85,8 +85,6 @@ class Surfaces {
   };
   struct Place;
 
-  static void open_shutter(const scene::ShutterMotion& shutter, std::size_t instance, std::size_t mesh,
-                           View& view);
   Surface at(const View& view, const Hit& hit, const Vec3& direction, float cone_width, float u_level) const;
   /// Fills the position and the normals of `surface`.
   static Place place(const View& view, const Hit& hit, const Vec3& direction, Surface& surface);

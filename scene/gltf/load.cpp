@@ -202,8 +202,8 @@ class Loader {
     if (!(options_.shutter > 0.0)) return;
     ShutterStates states(scene);
     for (int key = 0; key < kShutterKeys; ++key) {
-      const double place = static_cast<double>(key) / (kShutterKeys - 1);
-      animator_->apply(seconds + options_.shutter * (place - static_cast<double>(kShutterMiddle)), warnings_);
+      const auto from_middle = static_cast<double>(time_of_key(key) - kShutterMiddle);
+      animator_->apply(seconds + options_.shutter * from_middle, warnings_);
       const Graph graph = flatten_nodes(document_, motion_, options_, warnings_);
       Scene moved;  // with the parts that move
       moved.origin = scene.origin;
