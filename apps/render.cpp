@@ -42,8 +42,6 @@ void show_well(RenderSettings& settings) {
   if (radiance && !settings.given.contains("--exposure")) settings.exposure.reset();
   const bool finished = settings.preset == CachePreset::preview || settings.preset == CachePreset::standard ||
                         settings.preset == CachePreset::final;
-  if (settings.frames.any() && finished && !settings.given.contains("--spp"))
-    renderer::spare_samples(settings.render);
   if (radiance && finished && !settings.given.contains("--tonemap"))
     settings.image.display.tonemap = renderer::Tonemap::agx;
 }

@@ -58,7 +58,8 @@ std::vector<std::string> given_flags(const CLI::App& app) {
 
 void finish_flags(CLI::App& app, RenderSettings& settings) {
   if (settings.preset) {
-    renderer::apply_preset(*settings.preset, settings.render);
+    const auto apply = settings.frames.any() ? renderer::apply_preset_of_frames : renderer::apply_preset;
+    apply(*settings.preset, settings.render);
     // They were read once already, before the preset.
     for (CLI::Option* option : app.get_options()) {
       if (option->count() > 0) option->run_callback();

@@ -64,7 +64,7 @@ Cryptomattes make_cryptomattes(const RenderContext& context, double& seconds) {
   if (options.cryptomattes.empty()) return {};
   const Clock::time_point start = Clock::now();
   const PixelRect rows = context.tiles.own_rows(picture.region_of_picture());
-  const Camera camera(picture.view, options.width, options.height);
+  const Camera camera = picture.camera_of_size(options.width, options.height);
   const FilterSampler filter(options.filter, options.filter_width);
   Cryptomattes mattes = picture.arena.execute(
       [&] { return trace_cryptomattes(*picture.world, camera, filter, options, rows); });

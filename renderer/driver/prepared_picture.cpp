@@ -192,8 +192,7 @@ void PreparedPicture::set_camera(const CameraOptions& chosen) {
         fmt::format("the lens is focused at {:.4g} m, on the middle of the picture; `focus` {:.4g} keeps it",
                     view.focus_distance, view.focus_distance);
   }
-  camera = Camera(view, options.width, options.height);
-  if (scene.shutter.is_open) open_shutter();
+  camera = camera_of_size(options.width, options.height);
   // Rays of an orthographic camera begin at many places.
   if (!view.orthographic) camera.set_around(volumes_around(*world, view.transform.translation()));
   statistics.warnings.clear();
@@ -205,11 +204,15 @@ void PreparedPicture::set_camera(const CameraOptions& chosen) {
   }
 }
 
-void PreparedPicture::open_shutter() {
-  std::vector<Camera> states;
-  for (const View& moved : shutter_views(scene, options.camera, aspect_of(options), view))
-    states.emplace_back(moved, options.width, options.height);
-  camera.open_shutter(std::move(states));
+Camera PreparedPicture::camera_of_size(int width, int height) const {
+  Camera made(view, width, height);
+  if (scene.shutter.is_open) {
+    std::vector<Camera> states;
+    for (const View& moved : shutter_views(scene, options.camera, aspect_of(options), view))
+      states.emplace_back(moved, width, height);
+    made.open_shutter(std::move(states));
+  }
+  return made;
 }
 
 CacheMeaning PreparedPicture::cache_meaning() const {

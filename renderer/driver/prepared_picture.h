@@ -41,6 +41,8 @@ struct PreparedPicture {
   int samples_of_film(int spp) const;
   /// In the picture's own pixels.
   PixelRect region_of_picture() const;
+  /// The view for a picture of another size, with the shutter of the scene.
+  Camera camera_of_size(int width, int height) const;
   CacheMeaning cache_meaning() const;
   SceneFingerprint fingerprint() const;  ///< of the scene with its environment
 
@@ -65,7 +67,6 @@ struct PreparedPicture {
  private:
   WorldOptions world_options() const;
   View chosen_view(const CameraOptions& chosen) const;
-  void open_shutter();
   /// Applies RenderOptions::choose_integrator, for the first view.
   void choose_integrator();
 

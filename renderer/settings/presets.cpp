@@ -26,10 +26,6 @@ void set_finished(RenderOptions& options, int spp) {
 
 }  // namespace
 
-void spare_samples(RenderOptions& options) {
-  for (int* const samples : {&options.spp, &options.spp_of_paths}) *samples = (*samples + 1) / 2;
-}
-
 void apply_preset(CachePreset preset, RenderOptions& options) {
   CacheOptions& cache = options.cache;
   switch (preset) {
@@ -88,6 +84,14 @@ void apply_preset(CachePreset preset, RenderOptions& options) {
       break;
     }
   }
+}
+
+void apply_preset_of_frames(CachePreset preset, RenderOptions& options) {
+  apply_preset(preset, options);
+  const bool standard = preset == CachePreset::standard;
+  if (!standard && preset != CachePreset::preview && preset != CachePreset::final) return;
+  for (int* const samples : {&options.spp, &options.spp_of_paths}) *samples = (3 * *samples + 3) / 4;
+  if (standard) options.denoise.prefilter = Prefilter::fast;
 }
 
 }  // namespace gatelight::renderer

@@ -20,7 +20,8 @@ enum class CachePreset : std::uint8_t {
 /// and the size of the picture. Other options stay.
 void apply_preset(CachePreset preset, RenderOptions& options);
 
-/// Halves the samples of a preset of finished pictures: frames of an animation share cache and light.
-void spare_samples(RenderOptions& options);
+/// The same for frames of an animation, which share cache and light: finished pictures have three quarters of
+/// the samples, and `standard` ones guides that are not denoised first.
+void apply_preset_of_frames(CachePreset preset, RenderOptions& options);
 
 }  // namespace gatelight::renderer

@@ -90,6 +90,24 @@ TEST(Presets, FinishedPicturesAreDenoisedAndLearnFromTheirSamples) {
   }
 }
 
+TEST(Presets, FramesHaveThreeQuartersOfTheSamples) {
+  RenderOptions still, frames;
+  apply_preset(CachePreset::standard, still);
+  apply_preset_of_frames(CachePreset::standard, frames);
+  EXPECT_EQ(4 * frames.spp, 3 * still.spp);
+  EXPECT_EQ(4 * frames.spp_of_paths, 3 * still.spp_of_paths);
+  EXPECT_EQ(frames.denoise.prefilter, Prefilter::fast);
+  apply_preset_of_frames(CachePreset::final, frames);
+  EXPECT_EQ(frames.spp, 36);
+}
+
+TEST(Presets, ThePapersAreTheSameForFrames) {
+  RenderOptions still, frames;
+  apply_preset(CachePreset::paper_nrc, still);
+  apply_preset_of_frames(CachePreset::paper_nrc, frames);
+  EXPECT_EQ(frames.spp, still.spp);
+}
+
 TEST(Presets, ThePapersReplaceAllOptionsOfTheCache) {
   for (const CachePreset preset : {CachePreset::paper_nao, CachePreset::paper_nrc}) {
     RenderOptions options;

@@ -10,6 +10,7 @@
 
 #include "renderer/image/cryptomatte.h"
 #include "renderer/render.h"
+#include "scene/shutter.h"
 #include "tests/support/denoiser.h"
 #include "tests/support/scene_builder.h"
 
@@ -111,6 +112,32 @@ TEST(CryptomattePass, CoverageIsTheAreaInThePixel) {
   expect(13, 4, 0, 0.375f);
   expect(14, 8, 0, 0);
   EXPECT_EQ(at(picture, "CryptoObject", pixel_at(14, 8), 0).id, 0u) << "the background has the id 0";
+}
+
+TEST(CryptomattePass, CoversThePathOfAnObjectWhileTheShutterIsOpen) {
+  // Its left edge goes from x = 0 to x = 4, by half a metre from state to state.
+  SceneBuilder builder;
+  add_rectangle(builder, "moving", matte(builder, "clay"), 0, -4, 12, 4);
+  scene::Instance& moving = builder.scene().instances.back();
+  moving.baked = false;
+  moving.moves = builder.scene().motion.instances = true;
+  scene::ShutterMotion& shutter = builder.scene().shutter;
+  shutter.is_open = shutter.instances = true;
+  shutter.transforms.resize(1);
+  shutter.vertices.resize(1);
+  for (int key = 0; key < scene::kShutterKeys; ++key) {
+    Affine state = Affine::Identity();
+    state.translation() = Vec3(0.5f * static_cast<float>(key), 0, 0);
+    shutter.transforms[0].push_back(state);
+  }
+  const Picture picture = rendered(builder.scene(), options_for({MatteKind::object}));
+  const auto covered = [&](int x) { return mask(picture, "CryptoObject", pixel_at(x, 8), "moving"); };
+  EXPECT_EQ(covered(7), 0.0f);
+  for (int x = 8; x < 12; ++x) {
+    const float middle = (static_cast<float>(x) - 7.5f) / 4.0f;
+    EXPECT_NEAR(covered(x), middle, 0.1f) << x;
+  }
+  EXPECT_EQ(covered(13), 1.0f);
 }
 
 TEST(CryptomattePass, CoverageAddsUpToTheAlphaOfThePicture) {
