@@ -14,7 +14,7 @@ namespace {
 
 /// Below the first the light has not changed; from the second on the cache begins anew.
 constexpr double kUnchanged = 0.02;
-constexpr double kChanged = 0.3;
+constexpr double kChanged = 0.1;
 /// Steps of a cache for many frames, in those of a still with as many samples: presets of frames have three
 /// quarters of the samples of a still, and as many steps.
 constexpr double kStepsOfFrames = 4.0 / 3.0;
