@@ -76,7 +76,7 @@ class PictureRun {
     if (!uses_cache(options_.integrator)) return;
     if (memory_) {
       training_ = std::make_unique<Training>(context_, *memory_);
-      return training_->train_on(film_);
+      return training_->train_on(film_, *memory_);
     }
     training_ = std::make_unique<Training>(context_, checkpoint_->found());
     if (training_->complete()) return;

@@ -122,7 +122,7 @@ void Training::train(int steps, Film& film, const std::function<void()>& after_g
   steps_ = ended_by_time ? static_cast<int>(session_->steps() - first_step_) : steps;
 }
 
-void Training::train_on(Film& film) {
+void Training::train_on(Film& film, FrameMemory& memory) {
   if (first_step_ == 0) return train(fresh_steps_, film);
   double change = -1.0;
   before_learning_ = [&](const RecordBatch& group) {
@@ -133,6 +133,7 @@ void Training::train_on(Film& film) {
   light_change_ = std::max(change, 0.0);
   if (stopped_) return;
   if (begins_anew(light_change_)) {
+    memory.history.reset();
     session_->start_anew(true);
     first_step_ = 0;
     return train(fresh_steps_, film);

@@ -30,7 +30,7 @@ class Training {
   /// samples of the picture. Throws TrainingDiverged.
   void train(int steps, Film& film, const std::function<void()>& after_group = {});
   /// Trains a kept cache by a few steps, and by more where its light has changed.
-  void train_on(Film& film);
+  void train_on(Film& film, FrameMemory& memory);
   /// After training diverged: returns to the last good state by training up to it again. So normal training
   /// costs nothing extra. False where there is no good state. Film and `earlier` are those of that state.
   bool return_to_good(const std::string& reason, Film& film, RenderStatistics& earlier);
