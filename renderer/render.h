@@ -90,6 +90,11 @@ class Renderer {
   /// Throws BadOption as the constructor does, with the view unchanged.
   void set_camera(const CameraOptions& camera);
 
+  /// The pictures from now on have other options, with as many threads as before. What does not depend on the
+  /// difference is not built again; frames go on with their cache, whose options must be the same. Throws as
+  /// the constructor does; the renderer is then to be given other options before it is used.
+  void set_options(const RenderOptions& options);
+
   // Frames of an animation: scene::SceneFile::show() changes the scene between these calls.
 
   /// The scene shows another time. Builds what moves. Throws as the constructor does.

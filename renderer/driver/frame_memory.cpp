@@ -21,18 +21,21 @@ constexpr double kStepsOfFrames = 4.0 / 3.0;
 
 }  // namespace
 
+int steps_of_frames(const PreparedPicture& picture) {
+  const RenderOptions& options = picture.options;
+  if (options.cache.train_steps && !picture.steps_chosen) return *options.cache.train_steps;
+  const auto pixels = static_cast<std::uint64_t>(picture.region.width()) *
+                      static_cast<std::uint64_t>(picture.region.height());
+  return static_cast<int>(std::lround(kStepsOfFrames * choose_training_steps(options, pixels)));
+}
+
 void FrameMemory::begin(const PreparedPicture& picture, DistributedTiles& tiles, double seconds,
                         const std::filesystem::path& file_name) {
   const RenderOptions& options = picture.options;
   fingerprint = picture.fingerprint();
   layout_seconds = seconds;
   if (!uses_cache(options.integrator)) return;
-  const auto pixels = static_cast<std::uint64_t>(picture.region.width()) *
-                      static_cast<std::uint64_t>(picture.region.height());
-  const bool asked = options.cache.train_steps && !picture.steps_chosen;
-  fresh_steps = asked
-                    ? *options.cache.train_steps
-                    : static_cast<int>(std::lround(kStepsOfFrames * choose_training_steps(options, pixels)));
+  fresh_steps = steps_of_frames(picture);
   if (!file_name.empty()) {
     cache = read_session(picture, tiles, file_name, fingerprint, frame_tensors());
   } else if (scouted) {

@@ -45,6 +45,9 @@ struct FrameMemory {
   std::optional<EarlierView> view_of_picture_;  ///< of the last frame, in the picture's own pixels
 };
 
+/// Training steps of a new cache that frames share.
+int steps_of_frames(const PreparedPicture& picture);
+
 /// The part of `steps` that a frame trains because `change` of the light was found (cache/light_change.h).
 int steps_after_change(double change, int steps);
 

@@ -107,35 +107,67 @@ std::string made_view(const scene::Scene& scene, const CameraOptions& options, c
 
 PreparedPicture::PreparedPicture(const scene::Scene& scene_in, const RenderOptions& options_in, Ranks& ranks)
     : scene(scene_in),
-      chosen_denoiser(choose_denoiser(options_in.denoise, ranks)),
-      options_of_picture(with_denoiser(with_sky(scene, checked(options_in)), chosen_denoiser)),
-      options(options_of_film(options_of_picture)),
-      threads(options.threads > 0 ? options.threads : available_threads()),
+      threads(options_in.threads > 0 ? options_in.threads : available_threads()),
       control(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads)),
       arena(threads),
-      region(region_of(options)),
-      view(chosen_view(options.camera)),
-      filter(options.filter, options.filter_width),
-      scale(options_of_picture.denoise.supersampling, options_of_picture.filter,
-            options_of_picture.filter_width),
-      seed_(options.seed) {
-  const FlushDenormals flush;  // also on the arena's threads, as the arena is made here
-  bvh_budget = checked_budget(scene, options_of_picture);
+      ranks_(ranks) {
+  set_options(options_in);
+}
+
+void PreparedPicture::set_options(const RenderOptions& chosen) {
+  const FlushDenormals flush;  // also on the arena's threads, which begin here
+  if (chosen.threads > 0 && chosen.threads != threads)
+    throw BadOption(fmt::format("`threads` {}: expected {}, as before", chosen.threads, threads));
+  const std::optional<WorldOptions> before = world ? std::optional(world_options()) : std::nullopt;
+  choose_options(chosen);
   require_threads(threads);
-  if (chosen_denoiser.library)
+  if (chosen_denoiser.library && !denoiser)
     denoiser = std::make_unique<Denoiser>(*chosen_denoiser.library, threads,
                                           memory_of_denoiser(scene, options_of_picture));
   const Clock::time_point start = Clock::now();
-  arena.execute([&] { world.emplace(scene, world_options()); });
+  build_world(before);
   set_camera(options.camera);
   choose_integrator();
   // A loaded cache needs no more steps, unless the caller sets a number.
-  if (!options.cache.train_steps && options.cache.cache_in.empty()) {
-    steps_chosen = true;
+  steps_chosen = !options.cache.train_steps && options.cache.cache_in.empty();
+  if (steps_chosen) {
     options.cache.train_steps = choose_training_steps(
         options, static_cast<std::uint64_t>(region.width()) * static_cast<std::uint64_t>(region.height()));
   }
   statistics.build_seconds = seconds_since(start);
+  describe();
+}
+
+void PreparedPicture::choose_options(const RenderOptions& chosen) {
+  const ChosenDenoiser denoiser_before = chosen_denoiser;
+  chosen_denoiser = choose_denoiser(chosen.denoise, ranks_);
+  if (chosen_denoiser.library != denoiser_before.library) denoiser.reset();
+  options_of_picture = with_denoiser(with_sky(scene, checked(chosen)), chosen_denoiser);
+  options = options_of_film(options_of_picture);
+  region = region_of(options);
+  filter = FilterSampler(options.filter, options.filter_width);
+  scale = ScaleDown(options_of_picture.denoise.supersampling, options_of_picture.filter,
+                    options_of_picture.filter_width);
+  seed_ = options.seed;
+  bvh_budget = checked_budget(scene, options_of_picture);
+}
+
+void PreparedPicture::build_world(const std::optional<WorldOptions>& before) {
+  const WorldOptions wanted = world_options();
+  if (before == wanted) return;
+  LastingParts lasting;
+  if (before) {
+    lasting.textures = world->lasting.textures;
+    if (before->environment == wanted.environment) lasting.environment = world->lasting.environment;
+    // Which meshes ask for their coverage is built into the BVH.
+    if (before->acceleration == wanted.acceleration && before->glass_shadows == wanted.glass_shadows)
+      lasting.accel = world->lasting.accel;
+    world.reset();
+  }
+  arena.execute([&] { world.emplace(scene, wanted, lasting); });
+}
+
+void PreparedPicture::describe() {
   statistics.width = region_of_picture().width();
   statistics.height = region_of_picture().height();
   statistics.threads = threads;

@@ -28,6 +28,9 @@ struct PreparedPicture {
   /// Throws the exceptions of Renderer's constructor.
   PreparedPicture(const scene::Scene& scene_in, const RenderOptions& options_in, Ranks& ranks);
 
+  /// The pictures from now on have other options. Builds only the parts of the world that depend on what has
+  /// changed. Throws the exceptions of the constructor; call it again then, with options that it takes.
+  void set_options(const RenderOptions& chosen);
   /// Changes the view, and the warnings about it.
   void set_camera(const CameraOptions& chosen);
   /// The scene shows another time.
@@ -56,21 +59,27 @@ struct PreparedPicture {
   PixelRect region;               ///< of the film
   View view;
   Camera camera{view, 1, 1};
-  FilterSampler filter;
-  ScaleDown scale;                     ///< from the film to the picture
-  std::unique_ptr<Denoiser> denoiser;  ///< null: the picture is as traced
-  std::optional<World> world;          ///< empty only during construction
-  bool steps_chosen = false;           ///< training steps: from the picture's pixels and samples
-  std::size_t bvh_budget = 0;          ///< bytes; 0: no limit
-  RenderStatistics statistics;         ///< of building, with its warnings
+  FilterSampler filter{PixelFilter::box, 1.0f};
+  ScaleDown scale{1, PixelFilter::box, 1.0f};  ///< from the film to the picture
+  std::unique_ptr<Denoiser> denoiser;          ///< null: the picture is as traced
+  std::optional<World> world;                  ///< empty only during construction
+  bool steps_chosen = false;                   ///< training steps: from the picture's pixels and samples
+  std::size_t bvh_budget = 0;                  ///< bytes; 0: no limit
+  RenderStatistics statistics;                 ///< of building, with its warnings
 
  private:
+  void choose_options(const RenderOptions& chosen);
+  /// `before`: the options of the present world; none where there is no world yet.
+  void build_world(const std::optional<WorldOptions>& before);
+  /// Fills in the statistics of the world.
+  void describe();
   WorldOptions world_options() const;
   View chosen_view(const CameraOptions& chosen) const;
   /// Applies RenderOptions::choose_integrator, for the first view.
   void choose_integrator();
 
-  std::uint32_t seed_;  ///< of the whole animation
+  Ranks& ranks_;
+  std::uint32_t seed_ = 0;  ///< of the whole animation
 };
 
 }  // namespace gatelight::renderer

@@ -1,3 +1,6 @@
+#include <optional>
+#include <utility>
+
 #include "base/platform/flush_denormals.h"
 #include "renderer/cache/cache_report.h"
 #include "renderer/cache/cache_session.h"
@@ -12,11 +15,23 @@ namespace gatelight::renderer {
 struct Renderer::Implementation {
   Implementation(const scene::Scene& scene, const RenderOptions& options, Ranks& ranks)
       : picture(scene, options, ranks),
-        tiles(picture.region, ranks, picture.threads),
+        all_ranks(ranks),
+        tiles(std::in_place, picture.region, ranks, picture.threads),
         statistics(picture.statistics) {}
 
+  void set_options(const RenderOptions& options) {
+    const PixelRect region = picture.region;
+    picture.set_options(options);
+    statistics = picture.statistics;
+    memory.fresh_steps = steps_of_frames(picture);
+    if (picture.region == region) return;
+    tiles.emplace(picture.region, all_ranks, picture.threads);
+    memory.history.reset();
+  }
+
   PreparedPicture picture;
-  DistributedTiles tiles;
+  Ranks& all_ranks;
+  std::optional<DistributedTiles> tiles;
   RenderStatistics statistics;
   FrameMemory memory;
 };
@@ -34,6 +49,10 @@ void Renderer::set_camera(const CameraOptions& camera) {
   self.statistics.warnings = self.picture.statistics.warnings;
 }
 
+void Renderer::set_options(const RenderOptions& options) {
+  implementation_->set_options(options);
+}
+
 void Renderer::scene_moved(const CameraOptions& camera) {
   const FlushDenormals flush;
   Implementation& self = *implementation_;
@@ -47,14 +66,14 @@ void Renderer::scout() {
   const PreparedPicture& p = self.picture;
   if (!uses_cache(p.options.integrator)) return;
   p.arena.execute(
-      [&] { self.memory.scouting.add(*p.world, p.camera, p.region, p.options, &self.tiles.owners()); });
+      [&] { self.memory.scouting.add(*p.world, p.camera, p.region, p.options, &self.tiles->owners()); });
   self.memory.scouted = true;
 }
 
 void Renderer::begin_frames(double seconds, const std::filesystem::path& file) {
   const FlushDenormals flush;
   Implementation& self = *implementation_;
-  self.memory.begin(self.picture, self.tiles, seconds, file);
+  self.memory.begin(self.picture, *self.tiles, seconds, file);
 }
 
 void Renderer::restore_frame(const std::filesystem::path& file) {
@@ -67,7 +86,7 @@ Picture Renderer::render_frame(int frame, const Callbacks& callbacks) {
   const FlushDenormals flush;
   Implementation& self = *implementation_;
   self.picture.begin_frame(frame);
-  Picture picture = render_picture({self.picture, self.tiles, callbacks}, self.statistics, &self.memory);
+  Picture picture = render_picture({self.picture, *self.tiles, callbacks}, self.statistics, &self.memory);
   self.memory.last_frame = frame;
   return picture;
 }
@@ -83,13 +102,13 @@ FrameStatus read_frame_status(const std::filesystem::path& path) {
 Picture Renderer::render(const Callbacks& callbacks) {
   const FlushDenormals flush;
   Implementation& self = *implementation_;
-  return render_picture({self.picture, self.tiles, callbacks}, self.statistics);
+  return render_picture({self.picture, *self.tiles, callbacks}, self.statistics);
 }
 
 bool Renderer::render_series(const Series& series, const SeriesPicture& picture, const Callbacks& callbacks) {
   const FlushDenormals flush;
   Implementation& self = *implementation_;
-  return renderer::render_series({self.picture, self.tiles, callbacks}, series, picture, self.statistics);
+  return renderer::render_series({self.picture, *self.tiles, callbacks}, series, picture, self.statistics);
 }
 
 CacheReport Renderer::report_cache() {

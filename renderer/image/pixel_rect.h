@@ -17,6 +17,8 @@ struct PixelRect {
     return static_cast<std::size_t>(y - y0) * static_cast<std::size_t>(width()) +
            static_cast<std::size_t>(x - x0);
   }
+
+  bool operator==(const PixelRect&) const = default;
 };
 
 }  // namespace gatelight::renderer

@@ -24,6 +24,11 @@ struct BackgroundOptions {
 
   /// Whether the environment is left out of the view.
   bool is_separate() const { return kind != Kind::scene; }
+
+  bool operator==(const BackgroundOptions& other) const {
+    return kind == other.kind && (color == other.color).all() && file == other.file &&
+           shadow_catcher == other.shadow_catcher;
+  }
 };
 
 }  // namespace gatelight::renderer

@@ -18,6 +18,11 @@ struct EnvironmentOptions {
   float scale = 1.0f;
 
   bool none() const { return !automatic && !sky && file.empty() && (constant == 0.0f).all(); }
+
+  bool operator==(const EnvironmentOptions& other) const {
+    return automatic == other.automatic && file == other.file && (constant == other.constant).all() &&
+           sky == other.sky && rotation_degrees == other.rotation_degrees && scale == other.scale;
+  }
 };
 
 }  // namespace gatelight::renderer

@@ -27,6 +27,8 @@ struct WorldOptions {
   GlassShadows glass_shadows = GlassShadows::refract;
   std::vector<LightGroup> light_groups;
   BackgroundOptions background;
+
+  bool operator==(const WorldOptions&) const = default;
 };
 
 /// The parts that a world of another time takes over, if the scene's motion leaves them as they are.
