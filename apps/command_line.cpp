@@ -182,6 +182,7 @@ int parse(int argc, const char* const* argv, bool runs, const RankGroup& group) 
       add_info_command(root),
       add_merge_command(root),
       add_denoise_command(root),
+      add_view_command(root),
       add_sweep_command(root, std::vector<std::string>(argv, argv + argc)),
   };
   try {

@@ -27,6 +27,7 @@ Subcommand add_compare_command(CLI::App& root);
 Subcommand add_info_command(CLI::App& root);
 Subcommand add_merge_command(CLI::App& root);
 Subcommand add_denoise_command(CLI::App& root);
+Subcommand add_view_command(CLI::App& root);
 Subcommand add_sweep_command(CLI::App& root, const std::vector<std::string>& command);
 
 }  // namespace gatelight::apps

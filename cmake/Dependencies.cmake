@@ -17,6 +17,10 @@ find_package(embree 3.13 CONFIG REQUIRED)
 find_package(TBB 2021 CONFIG REQUIRED)
 find_package(CLI11 CONFIG REQUIRED)
 find_package(spdlog CONFIG REQUIRED)
+# cpp-httplib has no CMake files in Debian 12.
+find_path(GATELIGHT_HTTPLIB_HEADERS httplib.h REQUIRED)
+find_library(GATELIGHT_HTTPLIB NAMES cpp-httplib REQUIRED)
+mark_as_advanced(GATELIGHT_HTTPLIB_HEADERS GATELIGHT_HTTPLIB)
 # Only gatelight-mpi needs it, and is left out without.
 set(MPI_CXX_SKIP_MPICXX TRUE)
 find_package(MPI COMPONENTS CXX QUIET)

@@ -31,12 +31,21 @@ struct Progress {
   double seconds = 0.0;         ///< wall time since scouting or rendering started
 };
 
+/// Ends a picture that Callbacks::abandon gave up.
+class Abandoned : public std::exception {
+ public:
+  const char* what() const noexcept override { return "the picture was given up"; }
+};
+
 struct Callbacks {
   /// A worker thread calls it about ten times a second at most.
   std::function<void(const Progress&)> progress;
   /// Worker threads call it between tiles, several at once. When it returns true, the current pass is
   /// finished and rendering stops.
   std::function<bool()> stop;
+  /// Like `stop`, for a picture that is not wanted any more. When it returns true, render() and
+  /// render_frame() end as soon as they can, with Abandoned. The cache of frames keeps what it has learned.
+  std::function<bool()> abandon;
   /// Called after every pass. When it returns true, `snapshot` receives the picture so far. Only spp and
   /// render_seconds of the statistics are up to date at that time.
   std::function<bool()> snapshot_wanted;
@@ -44,6 +53,11 @@ struct Callbacks {
   /// A checkpoint or the cache file could not be written, and the render goes on. `again` says whether the
   /// write will be tried again. Where this callback is not set, the exception ends the render.
   std::function<void(const std::exception_ptr& error, bool again)> output_failed;
+
+  /// Throws Abandoned where the picture is given up.
+  void check_abandoned() const {
+    if (abandon && abandon()) throw Abandoned();
+  }
 };
 
 /// The points of one training, or of one plain rendering, at which pictures are made. They are ascending and

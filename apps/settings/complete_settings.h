@@ -12,6 +12,10 @@ namespace gatelight::apps {
 /// where there is none. They are refused, and left out of recipes.
 std::set<std::string> flags_without_effect(RenderSettings settings);
 
+/// Presets of radiance have automatic exposure, and those of finished pictures a curve with room for
+/// highlights. Call it for pictures that are shown, before complete_settings().
+void show_well(RenderSettings& settings);
+
 /// Checks flags against each other (such as the region against the size) and fills in what follows from them:
 /// the view of --eye, the number of threads. Throws UsageError.
 void complete_settings(RenderSettings& settings);

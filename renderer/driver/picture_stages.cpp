@@ -91,6 +91,7 @@ FinishedPicture finish(const RenderContext& context, Film& film, bool stopped, R
     const auto progress = [&callbacks = context.callbacks, stopped, start = Clock::now()](double done) {
       if (callbacks.progress)
         callbacks.progress({.phase = Phase::denoise, .fraction = done, .seconds = seconds_since(start)});
+      if (callbacks.abandon && callbacks.abandon()) return false;
       return stopped || !callbacks.stop || !callbacks.stop();
     };
     Finishing how = finishing(picture, spp, progress);
@@ -106,6 +107,7 @@ FinishedPicture finish(const RenderContext& context, Film& film, bool stopped, R
     if (memory && has(picture.options.aovs, Aov::motion))
       how.motion = picture.arena.execute([&] { return memory->motion(picture); });
     finished = finished_picture(film, how, picture.arena);
+    context.callbacks.check_abandoned();
     finished.picture.view = picture.camera.matrices(picture.scene.origin);
   }
   statistics.denoise_seconds = finished.denoise_seconds;

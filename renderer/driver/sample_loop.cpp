@@ -56,6 +56,7 @@ void SampleLoop::run_pass(int goal) {
   const double begin = now();
   picture_.arena.execute([&] {
     pass_->run(batch, film_, [&](double fraction) {
+      callbacks_.check_abandoned();
       if (callbacks_.stop && callbacks_.stop()) stop_ = true;
       report(fraction, batch);
     });

@@ -90,6 +90,10 @@ void Training::train(int steps, Film& film, const std::function<void()>& after_g
   std::uint64_t last_step = session_->steps();
   CacheSession::Watch watch;
   watch.stop = [&] {
+    if (context_.callbacks.abandon && context_.callbacks.abandon()) {
+      stopped_ = true;  // what was learned stays
+      throw Abandoned();
+    }
     stopped_ = any(ranks, context_.callbacks.stop && context_.callbacks.stop());
     if (stopped_ || !limited) return stopped_;
     const double now = seconds_since(start);

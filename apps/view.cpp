@@ -1,0 +1,100 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <memory>
+#include <string_view>
+#include <thread>
+
+#include "apps/settings/flags.h"
+#include "apps/settings/option_table.h"
+#include "apps/subcommand.h"
+#include "apps/terminal/errors.h"
+#include "apps/terminal/log.h"
+#include "apps/terminal/signals.h"
+#include "apps/terminal/terminal.h"
+#include "apps/view/open_browser.h"
+#include "apps/view/view_api.h"
+
+namespace gatelight::apps {
+namespace {
+
+constexpr const char* kViewFooter =
+    R"(Opens a page in the browser on this machine that shows the scene and refines the picture while nothing changes, to the
+very picture that `gatelight render` gives with the same flags (--preset final, if neither a preset nor an integrator is
+given). Drag to turn the view; the keys are listed behind the page's "?". The page saves EXR and PNG, and copies the
+command of the picture. The server answers only this machine, and only under the address that is printed.
+
+Examples:
+  gatelight view room.glb
+  gatelight view room.glb --size 1280x720 --preset standard
+  gatelight view house.glb --sky "sun=200,30" --port 8000 --no-browser)";
+
+constexpr auto kPoll = std::chrono::milliseconds(100);
+
+/// Flags of `render` that make no sense for a picture in a window.
+constexpr std::array<std::string_view, 24> kWithout = {
+    "output",      "stats",      "progress",         "reproducible", "quiet",
+    "verbose",     "checkpoint", "checkpoint-every", "resume",       "cache-in",
+    "cache-out",   "time-limit", "max-error",        "frames",       "fps",
+    "turntable",   "shutter",    "preview-video",    "frame-groups", "train-time",
+    "cryptomatte", "region",     "view-file",        "temporal"};
+
+struct WindowSettings {
+  RenderSettings render;
+  int port = 0;
+  bool no_browser = false;
+};
+
+std::vector<Option> window_options(WindowSettings& window) {
+  std::vector<Option> table = option_table(window.render);
+  std::erase_if(table, [](const Option& option) {
+    return std::find(kWithout.begin(), kWithout.end(), option.name) != kWithout.end();
+  });
+  OptionGroup group{table, "Window"};
+  group.add(common(number("port", window.port, {0, 65535}, "N", "Port of this machine; 0: any free one")));
+  group.add(common(toggle("no-browser", window.no_browser, "Print the address and open no browser")));
+  return table;
+}
+
+int run_view(WindowSettings window) {
+  std::vector<std::string> words = given_words(window.render);
+  const std::set<std::string>& given = window.render.given;
+  if (!given.contains("--preset") && !given.contains("--integrator"))
+    words.insert(words.begin(), "--preset=final");
+  install_signal_handlers();
+  ViewSession session(window.render.scene, words);
+  for (const std::string& warning : session.warnings()) log_warning(warning);
+  ViewApi api(session);
+  WebServer server(window.port, [&api](const WebRequest& request) { return api.answer(request); });
+  print_status(fmt::format("{}\n", server.address()));
+  if (!window.no_browser) open_browser(server.address());
+  std::jthread watch([&](const std::stop_token& over) {
+    while (!over.stop_requested() && stop_signal() == 0) std::this_thread::sleep_for(kPoll);
+    session.stop();
+    server.stop();
+  });
+  server.serve();
+  watch.request_stop();
+  const int signal = stop_signal();
+  return signal == 0 ? kDone : kSignalBase + signal;
+}
+
+}  // namespace
+
+Subcommand add_view_command(CLI::App& root) {
+  CLI::App* app =
+      add_subcommand(root, "view", "Show a scene in the browser, and change its view and light", kViewFooter);
+  const auto window = std::make_shared<WindowSettings>();
+  const std::vector<Option> options = window_options(*window);
+  add_flags(*app, options);
+  return {app,
+          [app, window] {
+            finish_flags(*app, window->render);
+            return run_view(*window);
+          },
+          common_names(options)};
+}
+
+}  // namespace gatelight::apps

@@ -1,0 +1,246 @@
+#include "apps/view/view_api.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "apps/reports/recipe.h"
+#include "apps/settings/parsing.h"
+#include "apps/terminal/errors.h"
+#include "apps/view/pixel_report.h"
+#include "apps/view/shown_layers.h"
+#include "apps/view/view_page.h"
+#include "base/errors.h"
+#include "base/image/jpeg_write.h"
+#include "base/image/png_write.h"
+#include "renderer/image/image_write.h"
+
+namespace gatelight::apps {
+namespace {
+
+using nlohmann::ordered_json;
+
+constexpr std::chrono::milliseconds kLongestWait{10000};
+constexpr std::size_t kLongestName = 40;
+constexpr int kJpegQuality = 90;
+
+const char* name_of_stage(Stage stage) {
+  constexpr const char* kNames[] = {"none", "draft", "preview", "refined", "final"};
+  return kNames[static_cast<int>(stage)];
+}
+
+WebResponse json_response(const ordered_json& json, int status = 200) {
+  // Names of a file need not be UTF-8.
+  return {.status = status,
+          .type = "application/json; charset=utf-8",
+          .body = json.dump(-1, ' ', false, ordered_json::error_handler_t::replace)};
+}
+
+WebResponse error_response(int status, const std::string& message) {
+  return json_response({{"error", one_line(message)}}, status);
+}
+
+std::string parameter(const WebRequest& request, const std::string& name) {
+  const auto found = request.query.find(name);
+  return found == request.query.end() ? std::string() : found->second;
+}
+
+/// A share of the picture's width or height. Throws BadOption.
+double place(const WebRequest& request, const std::string& name) {
+  return parse_real(name, parameter(request, name), {0.0, 1.0});
+}
+
+/// A viewer's name: letters, digits, '-' and '_'. Throws BadOption.
+std::string viewer_of(const WebRequest& request) {
+  const std::string name = parameter(request, "viewer");
+  const auto fits = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_';
+  };
+  if (name.size() > kLongestName || !std::all_of(name.begin(), name.end(), fits))
+    throw BadOption("viewer: expected at most 40 letters, digits, '-' and '_'");
+  return name.empty() ? "shared" : name;
+}
+
+renderer::DisplayOptions display_of(const ShownPicture& shown) {
+  renderer::DisplayOptions display = shown.settings.image.display;
+  display.exposure = shown.exposure;
+  return display;
+}
+
+ordered_json describe(const ShownPicture& shown) {
+  const renderer::RenderStatistics& s = shown.statistics;
+  ordered_json json{{"version", shown.version},
+                    {"revision", shown.revision},
+                    {"stage", name_of_stage(shown.stage)},
+                    {"complete", shown.complete},
+                    {"width", shown.picture.width},
+                    {"height", shown.picture.height},
+                    {"spp", s.spp},
+                    {"seconds", shown.seconds},
+                    {"exposure", shown.exposure}};
+  if (shown.picture.view) {
+    json["world_to_camera"] = shown.picture.view->world_to_camera;
+    json["world_to_ndc"] = shown.picture.view->world_to_ndc;
+  }
+  return json;
+}
+
+/// Where a wide picture is made, and the page asks for a layer that drafts lack, the last whole one is shown.
+const renderer::Picture* picture_with(const ShownPicture* shown, const std::string& layer) {
+  if (!shown || (!layer.empty() && shown->picture.find(layer) == nullptr)) return nullptr;
+  return &shown->picture;
+}
+
+}  // namespace
+
+WebResponse ViewApi::answer(const WebRequest& request) {
+  try {
+    if (const PageFile* file = request.method == "GET" ? page_file(request.path) : nullptr)
+      return {.type = std::string(file->type), .body = std::string(file->text)};
+    return route(request, viewer_of(request));
+  } catch (const BadOption& error) {
+    return error_response(400, error.what());
+  } catch (const nlohmann::json::exception&) {
+    return error_response(400, "the request: expected JSON as the page sends it");
+  } catch (const std::exception&) {
+    return error_response(500, describe_current_exception().message);
+  }
+}
+
+WebResponse ViewApi::route(const WebRequest& request, const std::string& viewer) {
+  const std::string& path = request.path;
+  if (request.method == "POST") {
+    if (path == "api/change") return change(request, viewer);
+    return error_response(404, "there is no such request");
+  }
+  if (path == "api/scene") return scene(viewer);
+  if (path == "api/picture") return picture(request, viewer);
+  if (path == "api/status") return status(viewer);
+  if (path == "api/pixel") return pixel(request, viewer);
+  if (path == "api/save") return save(request, viewer);
+  return error_response(404, "there is no such request");
+}
+
+WebResponse ViewApi::scene(const std::string& viewer) {
+  const SceneOutline& outline = session_.outline();
+  ordered_json cameras = ordered_json::array(), animations = ordered_json::array();
+  for (const SceneOutline::NamedCamera& camera : outline.cameras)
+    cameras.push_back({{"name", camera.name}, {"orthographic", camera.orthographic}});
+  for (const scene::Animation& animation : outline.animations)
+    animations.push_back({{"name", animation.name}, {"seconds", animation.seconds}});
+  ordered_json words = ordered_json::object();
+  for (const std::string& word : session_.words()) {
+    const std::size_t equals = word.find('=');
+    if (equals != std::string::npos) words[word.substr(2, equals - 2)] = word.substr(equals + 1);
+  }
+  return json_response({{"file", session_.file()},
+                        {"cameras", cameras},
+                        {"lights", outline.lights},
+                        {"glowing", outline.glowing},
+                        {"animations", animations},
+                        {"center", {outline.center.x(), outline.center.y(), outline.center.z()}},
+                        {"radius", outline.radius},
+                        {"has_own_light", outline.has_own_light},
+                        {"given", words},
+                        {"flags", session_.flags(viewer)}});
+}
+
+WebResponse ViewApi::change(const WebRequest& request, const std::string& viewer) {
+  const ordered_json json = ordered_json::parse(request.body);
+  FlagChange flags;
+  if (json.contains("flags")) {
+    for (const auto& [name, value] : json.at("flags").items())
+      flags[name] = value.is_null() ? std::nullopt : std::optional(value.get<std::string>());
+  }
+  const std::string layer = json.value("layer", "");
+  return json_response({{"revision", session_.change(viewer, flags, layer)}});
+}
+
+WebResponse ViewApi::picture(const WebRequest& request, const std::string& viewer) {
+  const std::string layer = parameter(request, "layer");
+  const auto after = static_cast<std::uint64_t>(parse_integer("after", parameter(request, "after"), {}));
+  const auto shown = session_.wait(viewer, after, kLongestWait);
+  if (!shown) return {.status = 204};
+  const auto whole = session_.last_whole(viewer);
+  const renderer::Picture* picture = picture_with(shown.get(), layer);
+  if (!picture) picture = picture_with(whole.get(), layer);
+  // The layer comes with the next whole picture.
+  if (!picture) picture = &shown->picture;
+  const std::string present = picture->find(layer) != nullptr ? layer : "";
+  const std::vector<std::uint8_t> bytes = layer_bytes(*picture, present, display_of(*shown));
+  const bool exact = shown->complete || !present.empty();
+  const std::vector<std::uint8_t> file =
+      exact ? encode_png(bytes, picture->width, picture->height, 3)
+            : encode_jpeg(bytes, picture->width, picture->height, kJpegQuality, false);
+  ordered_json description = describe(*shown);
+  description["histogram"] = histogram(bytes);
+  description["layer"] = present;
+  return {.type = exact ? "image/png" : "image/jpeg",
+          .body = std::string(file.begin(), file.end()),
+          .headers = {{"X-Picture", description.dump()}}};
+}
+
+WebResponse ViewApi::status(const std::string& viewer) {
+  const ViewerStatus status = session_.status(viewer);
+  const auto whole = session_.last_whole(viewer);
+  constexpr const char* kPhases[] = {"scout", "train", "render", "denoise"};
+  const renderer::Progress& p = status.progress;
+  ordered_json json{{"revision", status.revision},
+                    {"version", status.version},
+                    {"stage", name_of_stage(status.stage)},
+                    {"complete", status.complete},
+                    {"waits", status.waits},
+                    {"phase", kPhases[static_cast<int>(p.phase)]},
+                    {"fraction", p.fraction},
+                    {"steps", p.steps_done},
+                    {"all_steps", p.steps},
+                    {"loss", p.loss},
+                    {"samples", p.samples},
+                    {"spp", p.spp},
+                    {"error", status.error}};
+  if (whole) {
+    const renderer::RenderStatistics& s = whole->statistics;
+    json["last"] = {{"spp", s.spp},
+                    {"samples_per_second",
+                     s.render_seconds > 0.0 ? static_cast<double>(s.samples) / s.render_seconds : 0.0},
+                    {"loss", s.cache.loss},
+                    {"training_steps", s.cache.steps},
+                    {"cache_bytes", s.cache.parameter_bytes + s.cache.optimizer_bytes + s.cache.layout_bytes},
+                    {"scene_bytes", s.geometry_bytes + s.bvh_bytes + s.texture_bytes + s.light_bytes},
+                    {"light_change", s.cache.light_change}};
+    if (s.estimated_error) json["last"]["estimated_error"] = *s.estimated_error;
+  }
+  json["command"] = render_command(session_.file(), session_.words(), session_.flags(viewer));
+  return json_response(json);
+}
+
+WebResponse ViewApi::pixel(const WebRequest& request, const std::string& viewer) {
+  const auto whole = session_.last_whole(viewer);
+  if (!whole) return json_response(ordered_json::object());
+  return json_response(
+      pixel_report(whole->picture, session_.outline(), place(request, "x"), place(request, "y")));
+}
+
+WebResponse ViewApi::save(const WebRequest& request, const std::string& viewer) {
+  const std::string format = parameter(request, "format");
+  if (format != "exr" && format != "png") throw BadOption("format: expected exr or png");
+  const auto whole = session_.last_whole(viewer);
+  if (!whole) return error_response(404, "there is no picture yet");
+  renderer::Picture picture = whole->picture;
+  const std::string command = render_command(session_.file(), session_.words(), session_.flags(viewer));
+  picture.metadata.merge(make_recipe(whole->settings, {command}, whole->statistics, whole->seconds));
+  renderer::ImageWriteOptions options = whole->settings.image;
+  options.display = display_of(*whole);
+  const bool exr = format == "exr";
+  const auto bytes =
+      renderer::encode_image(picture, exr ? renderer::ImageFormat::exr : renderer::ImageFormat::png, options);
+  return {.type = exr ? "image/x-exr" : "image/png",
+          .body = std::string(bytes.begin(), bytes.end()),
+          .headers = {{"Content-Disposition", "attachment; filename=gatelight." + format}}};
+}
+
+}  // namespace gatelight::apps

@@ -1,0 +1,286 @@
+#include "apps/view/view_session.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "apps/terminal/errors.h"
+#include "renderer/image/auto_exposure.h"
+#include "renderer/settings/enum_names.h"
+#include "renderer/settings/resolved_options.h"
+
+namespace gatelight::apps {
+namespace {
+
+/// A viewer that has not asked for so long has closed its page; nothing is made for it.
+constexpr double kGone = 30.0;
+/// Seconds from the begin of a final picture to the first look at it, and the factor of the next ones.
+constexpr double kFirstLook = 1.5, kNextLook = 2.0;
+constexpr std::size_t kMostViewers = 64;
+
+/// The viewer that has not been seen for the longest time.
+template <class Viewers>
+auto oldest(Viewers& viewers) {
+  return std::min_element(viewers.begin(), viewers.end(),
+                          [](const auto& a, const auto& b) { return a.second.seen < b.second.seen; });
+}
+
+}  // namespace
+
+ViewSession::ViewSession(const std::string& scene, std::vector<std::string> words)
+    : file_(scene),
+      words_(std::move(words)),
+      base_(settings_of(scene, words_, {})),
+      scene_(scene, base_.load),
+      outline_(outline_of(scene_.scene())) {
+  const Task first{.stage = Stage::preview, .settings = base_};
+  renderer_.emplace(scene_.scene(), options_of(first));
+  integrator_ = renderer_->integrator();
+  warnings_ = scene_.scene().warnings;
+  const std::vector<std::string>& more = renderer_->statistics().warnings;
+  warnings_.insert(warnings_.end(), more.begin(), more.end());
+  thread_ = std::thread([this] { run(); });
+}
+
+ViewSession::~ViewSession() {
+  stop();
+  thread_.join();
+}
+
+void ViewSession::stop() {
+  const std::lock_guard lock(mutex_);
+  stopped_ = true;
+  ++changes_;
+  work_.notify_all();
+  news_.notify_all();
+}
+
+ViewSession::Viewer& ViewSession::viewer(const std::string& name) {
+  const auto found = viewers_.find(name);
+  if (found != viewers_.end()) {
+    found->second.seen = Clock::now();
+    return found->second;
+  }
+  if (viewers_.size() >= kMostViewers) viewers_.erase(oldest(viewers_));
+  Viewer& made = viewers_[name];
+  made.settings = base_;
+  ++changes_;
+  work_.notify_all();
+  return made;
+}
+
+std::uint64_t ViewSession::change(const std::string& name, const FlagChange& flags,
+                                  const std::string& layer) {
+  const std::lock_guard lock(mutex_);
+  Viewer& of = viewer(name);
+  const LiveFlags wanted = changed(of.flags, flags);
+  RenderSettings settings = settings_of(file_, words_, wanted);
+  of.flags = wanted;
+  of.settings = std::move(settings);
+  if (!layer.empty()) of.layer = layer == "none" ? "" : layer;
+  of.changed = Clock::now();
+  of.reached = Stage::none;
+  of.status.error.clear();
+  ++of.revision;
+  ++changes_;
+  work_.notify_all();
+  return of.revision;
+}
+
+LiveFlags ViewSession::flags(const std::string& name) {
+  const std::lock_guard lock(mutex_);
+  return viewer(name).flags;
+}
+
+ViewerStatus ViewSession::status(const std::string& name) {
+  const std::lock_guard lock(mutex_);
+  Viewer& of = viewer(name);
+  ViewerStatus status = of.status;
+  status.revision = of.revision;
+  status.version = of.shown ? of.shown->version : 0;
+  status.complete = of.reached == Stage::final;
+  status.waits = !status.complete && status.stage == Stage::none;
+  return status;
+}
+
+std::shared_ptr<const ShownPicture> ViewSession::wait(const std::string& name, std::uint64_t version,
+                                                      std::chrono::milliseconds most) {
+  std::unique_lock lock(mutex_);
+  viewer(name);
+  const auto is_there = [&] {
+    const auto found = viewers_.find(name);
+    return stopped_ || found == viewers_.end() ||
+           (found->second.shown && found->second.shown->version > version);
+  };
+  news_.wait_for(lock, most, is_there);
+  const auto found = viewers_.find(name);
+  if (found == viewers_.end()) return nullptr;
+  const std::shared_ptr<const ShownPicture>& shown = found->second.shown;
+  return shown && shown->version > version ? shown : nullptr;
+}
+
+std::shared_ptr<const ShownPicture> ViewSession::last_whole(const std::string& name) {
+  const std::lock_guard lock(mutex_);
+  return viewer(name).whole;
+}
+
+bool ViewSession::is_due(const Viewer& of) const {
+  return of.reached != Stage::final && of.status.error.empty() && seconds_since(of.seen) < kGone;
+}
+
+std::optional<ViewSession::Task> ViewSession::next_task() {
+  std::unique_lock lock(mutex_);
+  std::pair<const std::string, Viewer>* next = nullptr;
+  const auto find = [&] {
+    next = nullptr;
+    for (auto& named : viewers_) {
+      const Viewer& of = named.second;
+      if (!is_due(of)) continue;
+      const auto urgency = [](const Viewer& v) {
+        return std::pair(v.reached, -v.changed.time_since_epoch().count());
+      };
+      if (!next || urgency(of) < urgency(next->second)) next = &named;
+    }
+    return stopped_ || next != nullptr;
+  };
+  work_.wait(lock, find);
+  if (stopped_) return std::nullopt;
+  Viewer& of = next->second;
+  const auto stage = static_cast<Stage>(static_cast<int>(of.reached) + 1);
+  of.status.stage = stage;
+  of.status.progress = {};
+  return Task{next->first, stage, of.revision, of.settings, of.layer, of.changed};
+}
+
+void ViewSession::run() {
+  while (const std::optional<Task> task = next_task()) {
+    try {
+      make(*task);
+    } catch (const renderer::Abandoned&) {
+      // The next task is more urgent.
+    } catch (...) {
+      fail(*task);
+    }
+    const std::lock_guard lock(mutex_);
+    const auto found = viewers_.find(task->viewer);
+    if (found != viewers_.end()) found->second.status.stage = Stage::none;
+  }
+}
+
+bool ViewSession::is_overtaken(const Task& task) {
+  const std::lock_guard lock(mutex_);
+  if (stopped_) return true;
+  for (const auto& [name, of] : viewers_) {
+    if (name == task.viewer && of.revision != task.revision) return true;
+    if (is_due(of) && of.reached < Stage::preview && task.stage == Stage::final) return true;
+  }
+  return false;
+}
+
+renderer::RenderOptions ViewSession::options_of(const Task& task) const {
+  renderer::RenderOptions final = task.settings.render;
+  if (final.choose_integrator && integrator_) renderer::use_integrator(final, *integrator_);
+  if (!task.layer.empty() && task.stage != Stage::draft) {
+    for (const auto& [name, aov] : renderer::kEnumNames<renderer::Aov>) {
+      if (name == task.layer && !renderer::has(final.aovs, aov)) final.aovs.push_back(aov);
+    }
+  }
+  return options_of_stage(task.stage, final, new_light_, divisor_);
+}
+
+void ViewSession::prepare(const Task& task) {
+  const bool moved = scene_.show(task.settings.load.time.value_or(0.0), task.settings.load.lights);
+  const bool same_environment = environment_ == task.settings.render.environment;
+  environment_ = task.settings.render.environment;
+  new_light_ = new_light_ || moved || !same_environment || !shares_cache_;
+  const renderer::RenderOptions options = options_of(task);
+  if (!renderer_ || broken_) {
+    renderer_.reset();
+    shares_cache_ = false;
+    renderer_.emplace(scene_.scene(), options);
+  } else {
+    broken_ = true;
+    renderer_->set_options(options);
+    if (moved) renderer_->scene_moved(options.camera);
+  }
+  broken_ = false;
+  if (task.stage != Stage::final && !shares_cache_) {
+    renderer_->begin_frames(task.settings.load.time.value_or(0.0));
+    shares_cache_ = true;
+  }
+}
+
+renderer::Callbacks ViewSession::callbacks(const Task& task) {
+  auto next_look = std::make_shared<std::pair<Clock::time_point, double>>(Clock::now(), kFirstLook);
+  auto checked = std::make_shared<std::atomic<std::uint64_t>>(changes_.load());
+  auto overtaken = std::make_shared<std::atomic<bool>>(false);
+  return {
+      .progress =
+          [this, task](const renderer::Progress& progress) {
+            const std::lock_guard lock(mutex_);
+            const auto found = viewers_.find(task.viewer);
+            if (found != viewers_.end()) found->second.status.progress = progress;
+          },
+      .abandon =
+          [this, task, checked, overtaken] {
+            // Drafts are short, and a drag would never get one.
+            if (task.stage == Stage::draft) return false;
+            const std::uint64_t changes = changes_.load();
+            if (checked->exchange(changes) != changes) *overtaken = is_overtaken(task);
+            return overtaken->load();
+          },
+      .snapshot_wanted =
+          [next_look] {
+            if (seconds_since(next_look->first) < next_look->second) return false;
+            next_look->second *= kNextLook;
+            return true;
+          },
+      .snapshot = [this, task](const renderer::Picture& picture) { publish(task, picture, false); },
+  };
+}
+
+void ViewSession::make(const Task& task) {
+  const std::lock_guard lock(renders_);
+  const Clock::time_point start = Clock::now();
+  prepare(task);
+  const renderer::Callbacks calls = callbacks(task);
+  renderer::Picture picture =
+      task.stage == Stage::final ? renderer_->render(calls) : renderer_->render_frame(frame_++, calls);
+  if (task.stage != Stage::final) new_light_ = false;
+  if (task.stage == Stage::draft) divisor_ = next_divisor(divisor_, seconds_since(start));
+  publish(task, std::move(picture), true);
+}
+
+void ViewSession::publish(const Task& task, renderer::Picture picture, bool complete) {
+  auto shown = std::make_shared<ShownPicture>();
+  shown->revision = task.revision;
+  shown->stage = task.stage;
+  shown->complete = complete && task.stage == Stage::final;
+  shown->statistics = renderer_->statistics();
+  shown->settings = task.settings;
+  shown->seconds = seconds_since(task.changed);
+  const float suitable = renderer::auto_exposure(picture);
+  shown->picture = std::move(picture);
+  const std::lock_guard lock(mutex_);
+  const auto found = viewers_.find(task.viewer);
+  if (found == viewers_.end()) return;
+  Viewer& of = found->second;
+  // The exposure of noisy drafts would flicker.
+  const bool keeps = task.stage == Stage::draft && of.shown && !of.shown->settings.exposure;
+  shown->exposure = task.settings.exposure.value_or(keeps ? of.shown->exposure : suitable);
+  shown->version = ++version_;
+  of.shown = shown;
+  if (task.stage != Stage::draft) of.whole = shown;
+  if (complete && of.revision == task.revision) of.reached = task.stage;
+  news_.notify_all();
+}
+
+void ViewSession::fail(const Task& task) {
+  const std::string message = describe_current_exception().message;
+  const std::lock_guard lock(mutex_);
+  const auto found = viewers_.find(task.viewer);
+  if (found == viewers_.end() || found->second.revision != task.revision) return;
+  found->second.status.error = message;
+  news_.notify_all();
+}
+
+}  // namespace gatelight::apps
