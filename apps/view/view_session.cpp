@@ -148,7 +148,7 @@ std::optional<ViewSession::Task> ViewSession::next_task() {
   const auto stage = static_cast<Stage>(static_cast<int>(of.reached) + 1);
   of.status.stage = stage;
   of.status.progress = {};
-  return Task{next->first, stage, of.revision, of.settings, of.layer, of.changed};
+  return Task{next->first, stage, of.revision, changes_, of.settings, of.layer, of.changed};
 }
 
 void ViewSession::run() {
@@ -178,7 +178,9 @@ bool ViewSession::is_overtaken(const Task& task) {
 
 renderer::RenderOptions ViewSession::options_of(const Task& task) const {
   renderer::RenderOptions final = task.settings.render;
-  if (final.choose_integrator && integrator_) renderer::use_integrator(final, *integrator_);
+  // A final picture chooses by its own view, as render does; frames share a cache, or none.
+  if (task.stage != Stage::final && final.choose_integrator && integrator_)
+    renderer::use_integrator(final, *integrator_);
   if (!task.layer.empty() && task.stage != Stage::draft) {
     for (const auto& [name, aov] : renderer::kEnumNames<renderer::Aov>) {
       if (name == task.layer && !renderer::has(final.aovs, aov)) final.aovs.push_back(aov);
@@ -211,7 +213,7 @@ void ViewSession::prepare(const Task& task) {
 
 renderer::Callbacks ViewSession::callbacks(const Task& task) {
   auto next_look = std::make_shared<std::pair<Clock::time_point, double>>(Clock::now(), kFirstLook);
-  auto checked = std::make_shared<std::atomic<std::uint64_t>>(changes_.load());
+  auto checked = std::make_shared<std::atomic<std::uint64_t>>(task.changes);
   auto overtaken = std::make_shared<std::atomic<bool>>(false);
   return {
       .progress =

@@ -95,6 +95,7 @@ class ViewSession {
     std::string viewer;
     Stage stage = Stage::none;
     std::uint64_t revision = 0;
+    std::uint64_t changes = 0;  ///< of all viewers, before it
     RenderSettings settings;
     std::string layer;
     Clock::time_point changed;

@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 #include <httplib.h>
 
+#include <atomic>
+#include <chrono>
 #include <random>
+#include <thread>
 #include <utility>
 
 #include "base/errors.h"
@@ -40,6 +43,7 @@ struct WebServer::Implementation {
   std::string secret = random_secret();
   std::string address;
   int port = 0;
+  std::atomic<bool> serving = false, stopped = false;
 
   /// Whether a browser on this machine asks for this very address. A page elsewhere could let its own name
   /// mean this machine, or send its forms here.
@@ -112,11 +116,20 @@ int WebServer::port() const {
 }
 
 void WebServer::serve() {
-  implementation_->server.listen_after_bind();
+  Implementation& self = *implementation_;
+  self.serving = true;
+  if (!self.stopped) self.server.listen_after_bind();
+  self.serving = false;
 }
 
 void WebServer::stop() {
-  implementation_->server.stop();
+  Implementation& self = *implementation_;
+  self.stopped = true;
+  // The library forgets a stop that comes before it listens.
+  while (self.serving) {
+    self.server.stop();
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
 }
 
 }  // namespace gatelight::apps

@@ -37,8 +37,9 @@ class WebServer {
   const std::string& address() const;
   int port() const;
 
-  /// Serves until stop() is called, by any thread.
+  /// Serves until stop() is called.
   void serve();
+  /// Returns when no request is answered any more. Any thread but one that answers may call it.
   void stop();
 
  private:

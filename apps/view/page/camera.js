@@ -40,16 +40,27 @@ const camera = {
   /** Metres at the target, for the picture's height. */
   reach() { return this.height || 2 * this.distance() * Math.tan(this.fov * Math.PI / 360); },
 
-  /** Turns around the target by angles in radians. */
-  orbit(across, along) {
-    const from = vector.subtract(this.eye, this.target), radius = vector.length(from);
+  /** A point after a turn around another one, by angles in radians. */
+  turned(point, around, across, along) {
+    const from = vector.subtract(point, around), radius = vector.length(from);
     const axis = vector.unit(this.up), height = vector.dot(from, axis) / radius;
     const polar = Math.min(Math.max(Math.acos(height) + along, 0.02), Math.PI - 0.02);
     const flat = vector.unit(vector.subtract(from, vector.times(axis, height * radius)));
     const side = vector.cross(axis, flat);
-    const turned = vector.add(vector.times(flat, Math.cos(across)), vector.times(side, Math.sin(across)));
-    const direction = vector.add(vector.times(turned, Math.sin(polar)), vector.times(axis, Math.cos(polar)));
-    this.eye = vector.add(this.target, vector.times(direction, radius));
+    const aside = vector.add(vector.times(flat, Math.cos(across)), vector.times(side, Math.sin(across)));
+    const direction = vector.add(vector.times(aside, Math.sin(polar)), vector.times(axis, Math.cos(polar)));
+    return vector.add(around, vector.times(direction, radius));
+  },
+
+  /** Goes around the target. */
+  orbit(across, along) {
+    this.eye = this.turned(this.eye, this.target, across, along);
+    this.send();
+  },
+
+  /** Turns where it stands. */
+  look(across, along) {
+    this.target = this.turned(this.target, this.eye, across, along);
     this.send();
   },
 

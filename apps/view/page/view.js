@@ -52,7 +52,7 @@ function takePointer() {
   let spread = 0;
   frame.addEventListener("pointerdown", event => {
     frame.setPointerCapture(event.pointerId);
-    drags.set(event.pointerId, {x: event.clientX, y: event.clientY, moves: event.button !== 0 || event.shiftKey, far: 0});
+    drags.set(event.pointerId, {x: event.clientX, y: event.clientY, moves: event.button !== 0 || event.shiftKey, looks: event.altKey || event.ctrlKey, far: 0});
     frame.classList.add("dragged");
   });
   frame.addEventListener("pointermove", event => {
@@ -70,6 +70,8 @@ function takePointer() {
       camera.pan(x / height / 2, y / height / 2);
     } else if (drag.moves) {
       camera.pan(x / height, y / height);
+    } else if (drag.looks) {
+      camera.look(-x / height, -y / height);
     } else {
       camera.orbit(-2.5 * x / height, -2.5 * y / height);
     }
