@@ -137,6 +137,7 @@ async function start() {
   document.getElementById("help-button").addEventListener("click", () => document.getElementById("help").showModal());
   document.addEventListener("picture", event => followView(scene, event.detail));
   addEventListener("resize", () => { if (!picture.kept.hidden) picture.setWipe(picture.share); });
+  addEventListener("hashchange", () => location.reload());
   takePointer();
   takeKeys(display, layers, time);
   picture.watch();
