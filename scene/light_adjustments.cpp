@@ -11,13 +11,18 @@ void adjust_lights(Scene& scene, const std::vector<LightAdjustment>& adjustments
   if (adjustments.empty()) return;
   const LightNames names(scene);
   std::vector<bool> used(adjustments.size(), false);
-  const auto adjust = [&](const std::string& name, Color& light) {
+  /// The last adjustment of this name.
+  const auto note_used = [&](const std::string& name) {
     const LightAdjustment* last = nullptr;
     for (std::size_t i = 0; i < adjustments.size(); ++i) {
       if (!fits_light_name(adjustments[i].name, name)) continue;
       used[i] = true;
       last = &adjustments[i];
     }
+    return last;
+  };
+  const auto adjust = [&](const std::string& name, Color& light) {
+    const LightAdjustment* const last = note_used(name);
     if (last == nullptr) return;
     light *= last->factor;
     if (!light.isFinite().all()) {
@@ -27,7 +32,11 @@ void adjust_lights(Scene& scene, const std::vector<LightAdjustment>& adjustments
   };
   for (PunctualLight& light : scene.lights) adjust(light.name, light.intensity);
   for (Material& material : scene.materials) {
-    if (!material.emits()) continue;
+    if (!material.emits()) {
+      // At another time it may glow.
+      if (!scene.animations.empty()) note_used(material.name);
+      continue;
+    }
     adjust(material.name, material.emission);
     if (!material.emits()) scene.dark_lights.push_back(material.name);
   }

@@ -21,7 +21,7 @@ struct LightAdjustment {
 
 /// Multiplies the intensity of punctual lights and the emission of materials. Where several adjustments name
 /// a light, the last one counts: {"*", 0}, {"lamp", 1} switches off all but the lamp. Throws InputError for a
-/// name that no light and no emissive material has, and where a product is not finite.
+/// name that no light and no emissive material has (of a file with animations: no material), and where a product is not finite.
 void adjust_lights(Scene& scene, const std::vector<LightAdjustment>& adjustments);
 
 }  // namespace gatelight::scene

@@ -42,6 +42,12 @@ TEST(LiveScene, IsTheSceneThatLoadingGives) {
   }
 }
 
+TEST(LiveScene, TakesLightsThatAreOffAtThisTime) {
+  LiveScene live(kRoom, {.time = 0.0});
+  EXPECT_NO_THROW(live.show(1.5, {{"bulb", Color::Constant(2.0f)}}));
+  expect_same(live.scene(), loaded(1.5, {}));
+}
+
 TEST(LiveScene, StaysAsItWasForUnknownLights) {
   LiveScene live(kRoom, {.time = 0.4, .lights = {{"*", Color::Constant(2.0f)}}});
   EXPECT_THROW(live.show(0.4, {{"no such lamp", Color::Zero()}}), InputError);
