@@ -8,6 +8,7 @@
 #include "apps/settings/complete_settings.h"
 #include "apps/settings/flags.h"
 #include "apps/settings/option_table.h"
+#include "apps/settings/show_well.h"
 #include "apps/subcommand.h"
 #include "apps/terminal/errors.h"
 #include "apps/terminal/log.h"
@@ -33,22 +34,9 @@ Examples:
   gatelight render room.glb -o room.exr --preset standard --time-limit 10
   gatelight render room.glb -o room.exr --denoiser oidn --max-error 0.05)";
 
-/// Presets of radiance have automatic exposure, and those of finished pictures a curve with room for
-/// highlights.
-void show_well(RenderSettings& settings) {
-  using renderer::CachePreset;
-  const renderer::Integrator integrator = settings.render.integrator;
-  const bool radiance = integrator == renderer::Integrator::nrc || integrator == renderer::Integrator::path;
-  if (radiance && !settings.given.contains("--exposure")) settings.exposure.reset();
-  const bool finished = settings.preset == CachePreset::preview || settings.preset == CachePreset::standard ||
-                        settings.preset == CachePreset::final;
-  if (radiance && finished && !settings.given.contains("--tonemap"))
-    settings.image.display.tonemap = renderer::Tonemap::agx;
-}
-
 int run_render(RenderSettings settings, const std::vector<std::string>& command, const RankGroup& group) {
   set_json_messages(settings.progress == ProgressMode::json);
-  if (settings.preset) show_well(settings);
+  show_well(settings);
   complete_settings(settings);
   if (!group.ranks.first()) settings.quiet = true;
   check_inputs(settings);

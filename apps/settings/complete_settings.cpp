@@ -281,7 +281,7 @@ void complete_settings(RenderSettings& settings) {
 }
 
 void check_inputs(const RenderSettings& settings) {
-  require_file("the scene", settings.scene);
+  if (!settings.scene.empty()) require_file("the scene", settings.scene);
   if (!settings.render.environment.file.empty()) {
     require_file("the environment", settings.render.environment.file);
     check_image_input(settings.render.environment.file);

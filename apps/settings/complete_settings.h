@@ -16,7 +16,7 @@ std::set<std::string> flags_without_effect(RenderSettings settings);
 /// the view of --eye, the number of threads. Throws UsageError.
 void complete_settings(RenderSettings& settings);
 
-/// Checks before the long work that inputs exist. Throws InputError.
+/// Checks before the long work that inputs exist; a scene without a name is in memory. Throws InputError.
 void check_inputs(const RenderSettings& settings);
 
 /// Checks before the long work that outputs can be written. Throws OutputError or UnknownFormat.
