@@ -36,7 +36,8 @@ std::vector<int> scouted_frames(const std::vector<int>& frames) {
   const std::size_t moments = std::min(frames.size(), kScouted);
   if (moments < 2) return frames;
   std::vector<int> scouted;
-  for (std::size_t k = 0; k < moments; ++k) scouted.push_back(frames[k * (frames.size() - 1) / (moments - 1)]);
+  for (std::size_t k = 0; k < moments; ++k)
+    scouted.push_back(frames[k * (frames.size() - 1) / (moments - 1)]);
   return scouted;
 }
 

@@ -8,8 +8,8 @@
 
 namespace gatelight::scene {
 
-/// Bakes transforms (bake.h) if `bake`, separates doubled lamps, and sets Scene::bounds. Returns the materials
-/// of which culled copies were added (doubled_lamps.h).
+/// Bakes transforms (bake.h) if `bake`, separates doubled lamps, and sets Scene::bounds. Returns the
+/// materials of which culled copies were added (doubled_lamps.h).
 std::vector<int> finish_geometry(Scene& scene, bool bake);
 
 /// Describes vertices that are too far away or not finite, by the box around them; empty where there are

@@ -28,14 +28,16 @@ template <class Number>
 Array<Number> rows(const char* name, pybind11::handle values, pybind11::ssize_t columns) {
   namespace py = pybind11;
   const py::array given = py::array::ensure(values);
-  const bool fits = given && (columns > 0 ? given.ndim() == 2 && given.shape(1) == columns : given.ndim() == 1);
+  const bool fits =
+      given && (columns > 0 ? given.ndim() == 2 && given.shape(1) == columns : given.ndim() == 1);
   const std::string expected = columns > 0 ? fmt::format("(n, {})", columns) : "(n,)";
   if (!given) {
     PyErr_Clear();
     throw BadOption(fmt::format("{}: it is no array, expected one of shape {}", name, expected));
   }
   if (!fits)
-    throw BadOption(fmt::format("{}: '{}' is the array's shape, expected {}", name, shape_of(given), expected));
+    throw BadOption(
+        fmt::format("{}: '{}' is the array's shape, expected {}", name, shape_of(given), expected));
   const char kind = given.dtype().kind();
   const bool integers = std::is_integral_v<Number>;
   if (integers ? kind != 'i' && kind != 'u' : kind != 'f' && kind != 'i' && kind != 'u')
@@ -44,10 +46,12 @@ Array<Number> rows(const char* name, pybind11::handle values, pybind11::ssize_t 
   if (integers && given.size() > 0) {
     const py::object least = given.attr("min")(), greatest = given.attr("max")();
     if (py::int_(least).cast<double>() < 0.0 || py::int_(greatest).cast<double>() > 4294967295.0)
-      throw BadOption(fmt::format("{}: '{}' is not from 0 to 4294967295", name,
-                                  std::string(py::str(py::int_(least).cast<double>() < 0.0 ? least : greatest))));
+      throw BadOption(
+          fmt::format("{}: '{}' is not from 0 to 4294967295", name,
+                      std::string(py::str(py::int_(least).cast<double>() < 0.0 ? least : greatest))));
   }
-  return Array<Number>(py::reinterpret_borrow<py::object>(given.attr("astype")(py::dtype::of<Number>(), "C")));
+  return Array<Number>(
+      py::reinterpret_borrow<py::object>(given.attr("astype")(py::dtype::of<Number>(), "C")));
 }
 
 /// A view of rows that an owner keeps alive; (n, columns), or (n,) with 0 columns.

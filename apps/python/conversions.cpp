@@ -37,7 +37,8 @@ Affine transform(const char* name, py::handle value) {
   const Array<double> matrix = rows<double>(name, value, 4);
   const auto m = matrix.unchecked<2>();
   if (m.shape(0) != 4 && m.shape(0) != 3)
-    throw BadOption(fmt::format("{}: '{}' is the array's shape, expected (4, 4) or (3, 4)", name, shape_of(matrix)));
+    throw BadOption(
+        fmt::format("{}: '{}' is the array's shape, expected (4, 4) or (3, 4)", name, shape_of(matrix)));
   Affine result;
   for (py::ssize_t row = 0; row < m.shape(0); ++row) {
     for (py::ssize_t column = 0; column < 4; ++column) {

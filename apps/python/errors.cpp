@@ -36,7 +36,7 @@ struct Parts {
 Parts parts_of(const std::string& message) {
   static const std::regex option("^(?:--)?([a-z][a-z0-9_-]*)(?::| is missing| and --| [^ ]+: )");
   static const std::regex value("^(?:--)?[a-z][a-z0-9_-]*: '([^']*)'");
-  static const std::regex expected("(?:, expected | is not )(.*?)(?:; did you mean .*)?$");
+  static const std::regex expected("(?:[,;] expected | is not )(.*?)(?:; did you mean .*)?$");
   Parts parts;
   std::smatch found;
   if (std::regex_search(message, found, option)) {

@@ -16,7 +16,8 @@ namespace gatelight::python {
 class Frames {
  public:
   /// Throws BadOption without frames among the options, and for a scene that shows one time only.
-  Frames(ScenePointer scene, const pybind11::dict& keywords, pybind11::object progress, pybind11::object stop);
+  Frames(ScenePointer scene, const pybind11::dict& keywords, pybind11::object progress,
+         pybind11::object stop);
 
   /// The next picture. Throws pybind11::stop_iteration after the last one, or where `stop` returned true.
   PicturePointer next();

@@ -17,8 +17,8 @@ namespace {
 namespace py = pybind11;
 
 constexpr renderer::Choice<scene::Wrap> kWraps[] = {{"repeat", scene::Wrap::repeat},
-                                                {"mirror", scene::Wrap::mirrored_repeat},
-                                                {"clamp", scene::Wrap::clamp_to_edge}};
+                                                    {"mirror", scene::Wrap::mirrored_repeat},
+                                                    {"clamp", scene::Wrap::clamp_to_edge}};
 constexpr int kLargestTexture = 65536;
 
 scene::Mesh& get(const MeshPart& part) {
@@ -38,7 +38,8 @@ void fill(const char* name, py::handle values, Rows& rows_to) {
   constexpr auto columns = static_cast<py::ssize_t>(sizeof(rows_to[0]) / sizeof(float));
   const Array<float> array = rows<float>(name, values, columns);
   if (static_cast<std::size_t>(array.shape(0)) != rows_to.size())
-    fail(name, fmt::format("'{}' is the array's shape, expected ({}, {})", shape_of(array), rows_to.size(), columns));
+    fail(name, fmt::format("'{}' is the array's shape, expected ({}, {})", shape_of(array), rows_to.size(),
+                           columns));
   std::memcpy(static_cast<void*>(rows_to.data()), array.data(), rows_to.size() * sizeof(rows_to[0]));
 }
 
@@ -86,7 +87,8 @@ void replace(const MeshPart& part, const char* name, Rows& values, const py::obj
 }
 
 void add_mesh_class(py::module_& module) {
-  py::class_<MeshPart> mesh(module, "Mesh", "Triangles of one material. Arrays that are read are views without a copy.");
+  py::class_<MeshPart> mesh(module, "Mesh",
+                            "Triangles of one material. Arrays that are read are views without a copy.");
   mesh.def_property_readonly("index", [](const MeshPart& part) { return part.index; });
   mesh.def_property(
       "name", [](const MeshPart& part) { return get(part).name; },
@@ -104,14 +106,17 @@ void add_mesh_class(py::module_& module) {
       "(n, 3) float32, metres; a new array has as many rows");
   mesh.def_property(
       "normals", [](const MeshPart& part) { return view_of(part, get(part).normals, 3); },
-      [](const MeshPart& part, const py::object& given) { replace(part, "normals", get(part).normals, given); },
+      [](const MeshPart& part, const py::object& given) {
+        replace(part, "normals", get(part).normals, given);
+      },
       "(n, 3) float32, or None: flat");
   mesh.def_property(
       "uvs", [](const MeshPart& part) { return view_of(part, get(part).uv0, 2); },
       [](const MeshPart& part, const py::object& given) { replace(part, "uvs", get(part).uv0, given); },
       "(n, 2) float32, or None");
   mesh.def_property_readonly(
-      "triangles", [](const MeshPart& part) { return view_of(part, get(part).triangles, 3); }, "(m, 3) uint32");
+      "triangles", [](const MeshPart& part) { return view_of(part, get(part).triangles, 3); },
+      "(m, 3) uint32");
   mesh.def_property(
       "material",
       [](const MeshPart& part) -> py::object {
@@ -173,7 +178,8 @@ MeshPart make_mesh(const ScenePointer& scene, py::handle positions, py::handle t
   return {{scene, scene->source.meshes.size() - 1}};
 }
 
-InstancePart make_instance(const ScenePointer& scene, py::handle mesh, py::handle matrix, const std::string& name) {
+InstancePart make_instance(const ScenePointer& scene, py::handle mesh, py::handle matrix,
+                           const std::string& name) {
   if (!py::isinstance<MeshPart>(mesh) || mesh.cast<MeshPart>().scene != scene)
     fail("mesh", "it is no mesh of this scene, expected one of scene.meshes");
   scene::Instance instance;

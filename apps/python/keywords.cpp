@@ -86,9 +86,8 @@ std::vector<std::pair<const Option*, py::handle>> match(const std::vector<Option
     if (found == table.end()) {
       std::vector<std::string> names;
       for (const Option& option : table) names.push_back(keyword_of(option.name));
-      throw BadOption(
-          fmt::format("{}: there is no such option, expected one of gatelight.options(){}", name,
-                      did_you_mean(name, names)));
+      throw BadOption(fmt::format("{}: there is no such option, expected one of gatelight.options(){}", name,
+                                  did_you_mean(name, names)));
     }
     if (!value.is_none()) matched.emplace_back(&*found, value);
   }
@@ -102,7 +101,8 @@ std::string text_of(const std::string& option, py::handle value) {
   if (py::isinstance<py::bool_>(value)) return value.cast<bool>() ? "on" : "off";
   if (py::isinstance<py::dict>(value)) return text_of_dictionary(option, value.cast<py::dict>());
   if (PyIndex_Check(value.ptr()) != 0) return py::str(py::int_(value.attr("__index__")()));
-  if (is_sequence(value)) return joined(option, value, option == "size" ? "x" : option == "shutter" ? ":" : ",");
+  if (is_sequence(value))
+    return joined(option, value, option == "size" ? "x" : option == "shutter" ? ":" : ",");
   if (py::hasattr(value, "__float__")) return py::repr(py::float_(value.attr("__float__")()));
   if (py::hasattr(value, "__fspath__")) return py::str(value.attr("__fspath__")());
   if (PyRange_Check(value.ptr())) {
@@ -134,10 +134,9 @@ apps::RenderSettings read_keywords(const py::dict& keywords) {
 }
 
 const std::set<std::string>& load_options() {
-  static const std::set<std::string> names = {"--scene-index", "--variant",     "--time",
-                                              "--animation",   "--show-hidden", "--backfaces",
-                                              "--lights",      "--ies",         "--missing",
-                                              "--allow-external", "--ignore-required"};
+  static const std::set<std::string> names = {
+      "--scene-index", "--variant", "--time",    "--animation",      "--show-hidden",    "--backfaces",
+      "--lights",      "--ies",     "--missing", "--allow-external", "--ignore-required"};
   return names;
 }
 
@@ -153,8 +152,10 @@ void add_options(py::module_& module) {
           py::dict entry;
           entry["help"] = option.help;
           entry["values"] = option.toggle ? "True|False" : option.unit;
-          entry["default"] =
-              option.toggle ? "False" : !option.default_text.empty() ? option.default_text : shows ? option.text() : "";
+          entry["default"] = option.toggle                  ? "False"
+                             : !option.default_text.empty() ? option.default_text
+                             : shows                        ? option.text()
+                                                            : "";
           entry["group"] = option.group;
           entry["common"] = option.common;
           all[py::str(keyword_of(option.name))] = entry;

@@ -24,7 +24,8 @@ struct MaterialField {
 
 const std::vector<MaterialField>& material_fields();
 
-pybind11::object get_field(const MaterialField& field, const ScenePointer& scene, const scene::Material& material);
+pybind11::object get_field(const MaterialField& field, const ScenePointer& scene,
+                           const scene::Material& material);
 /// Throws BadOption.
 void set_field(const MaterialField& field, const ScenePointer& scene, scene::Material& material,
                pybind11::handle value);

@@ -20,21 +20,21 @@ constexpr apps::RealRange kUnit{0.0, 1.0};
 constexpr apps::RealRange kAtLeastZero{0.0, 3.4e38};
 constexpr apps::RealRange kDistance{.min = 0.0, .max = 3.4e38, .excludes_min = true, .infinity = true};
 constexpr renderer::Choice<scene::AlphaMode> kAlphaModes[] = {{"opaque", scene::AlphaMode::opaque},
-                                                          {"mask", scene::AlphaMode::mask},
-                                                          {"blend", scene::AlphaMode::blend}};
+                                                              {"mask", scene::AlphaMode::mask},
+                                                              {"blend", scene::AlphaMode::blend}};
 
 struct Getter {
   const ScenePointer& scene;
   const Material& material;
 
-  py::object operator()(float Material::* member) const { return py::float_(material.*member); }
-  py::object operator()(Color Material::* member) const { return tuple_of(material.*member); }
-  py::object operator()(bool Material::* member) const { return py::bool_(material.*member); }
-  py::object operator()(std::string Material::* member) const { return py::str(material.*member); }
-  py::object operator()(scene::AlphaMode Material::* member) const {
+  py::object operator()(float Material::*member) const { return py::float_(material.*member); }
+  py::object operator()(Color Material::*member) const { return tuple_of(material.*member); }
+  py::object operator()(bool Material::*member) const { return py::bool_(material.*member); }
+  py::object operator()(std::string Material::*member) const { return py::str(material.*member); }
+  py::object operator()(scene::AlphaMode Material::*member) const {
     return py::str(std::string(renderer::name_of(kAlphaModes, material.*member)));
   }
-  py::object operator()(TextureSlot Material::* member) const {
+  py::object operator()(TextureSlot Material::*member) const {
     const TextureSlot& slot = material.*member;
     if (!slot) return py::none();
     return py::cast(TexturePart{{scene, static_cast<std::size_t>(slot.texture)}});
@@ -47,29 +47,27 @@ struct Setter {
   Material& material;
   py::handle value;
 
-  void operator()(float Material::* member) const {
+  void operator()(float Material::*member) const {
     material.*member = number(field.name, value, field.range);
   }
-  void operator()(Color Material::* member) const {
-    material.*member = color(field.name, value, field.range);
-  }
-  void operator()(bool Material::* member) const {
+  void operator()(Color Material::*member) const { material.*member = color(field.name, value, field.range); }
+  void operator()(bool Material::*member) const {
     if (!py::isinstance<py::bool_>(value))
       throw BadOption(fmt::format("{}: '{}' is not True or False", field.name, text_of(field.name, value)));
     material.*member = value.cast<bool>();
   }
-  void operator()(std::string Material::* member) const { material.*member = text_of(field.name, value); }
-  void operator()(scene::AlphaMode Material::* member) const {
+  void operator()(std::string Material::*member) const { material.*member = text_of(field.name, value); }
+  void operator()(scene::AlphaMode Material::*member) const {
     material.*member = apps::parse_choice(field.name, text_of(field.name, value), kAlphaModes);
   }
-  void operator()(TextureSlot Material::* member) const {
+  void operator()(TextureSlot Material::*member) const {
     if (value.is_none()) {
       material.*member = {};
       return;
     }
     if (!py::isinstance<TexturePart>(value) || value.cast<TexturePart>().scene != scene)
-      throw BadOption(fmt::format("{}: it is no texture of this scene, expected one of scene.add_texture or None",
-                                  field.name));
+      throw BadOption(fmt::format(
+          "{}: it is no texture of this scene, expected one of scene.add_texture or None", field.name));
     material.*member = {.texture = static_cast<int>(value.cast<TexturePart>().index)};
   }
 };
@@ -115,7 +113,8 @@ const std::vector<MaterialField>& material_fields() {
       {"iridescence", &M::iridescence, kUnit, "Strength of a thin film"},
       {"iridescence_texture", &M::iridescence_texture, {}, "R"},
       {"film_ior", &M::film_ior, {.min = 1.0, .max = 100.0}, "Index of refraction of the film"},
-      {"film_thickness_minimum", &M::film_thickness_minimum, kAtLeastZero, "Nanometres, where its texture is 0"},
+      {"film_thickness_minimum", &M::film_thickness_minimum, kAtLeastZero,
+       "Nanometres, where its texture is 0"},
       {"film_thickness_maximum", &M::film_thickness_maximum, kAtLeastZero, "Nanometres"},
       {"film_thickness_texture", &M::film_thickness_texture, {}, "G"},
       {"clearcoat", &M::clearcoat, kUnit, "Strength of a layer of varnish"},
@@ -124,7 +123,8 @@ const std::vector<MaterialField>& material_fields() {
       {"clearcoat_roughness_texture", &M::clearcoat_roughness_texture, {}, "G"},
       {"clearcoat_normal_texture", &M::clearcoat_normal_texture, {}, "Tangent space"},
       {"clearcoat_normal_scale", &M::clearcoat_normal_scale, apps::kAnyFloat, "Of its normal map"},
-      {"diffuse_transmission", &M::diffuse_transmission, kUnit, "Part of the light that passes as through paper"},
+      {"diffuse_transmission", &M::diffuse_transmission, kUnit,
+       "Part of the light that passes as through paper"},
       {"diffuse_transmission_texture", &M::diffuse_transmission_texture, {}, "A"},
       {"diffuse_transmission_color", &M::diffuse_transmission_color, kUnit, "Linear RGB"},
       {"diffuse_transmission_color_texture", &M::diffuse_transmission_color_texture, {}, "RGB sRGB"},
@@ -156,8 +156,8 @@ MaterialPart make_material(const ScenePointer& scene, const py::kwargs& keywords
     const auto name = key.cast<std::string>();
     const auto found = std::find(names.begin(), names.end(), name);
     if (found == names.end())
-      throw BadOption(fmt::format("{}: a material has no such member, expected one of gatelight.Material{}", name,
-                                  did_you_mean(name, names)));
+      throw BadOption(fmt::format("{}: a material has no such member, expected one of gatelight.Material{}",
+                                  name, did_you_mean(name, names)));
     set_field(material_fields()[static_cast<std::size_t>(found - names.begin())], scene, material, value);
   }
   scene->source.materials.push_back(std::move(material));
@@ -166,10 +166,12 @@ MaterialPart make_material(const ScenePointer& scene, const py::kwargs& keywords
 }
 
 void add_materials(py::module_& module) {
-  py::class_<TexturePart>(module, "Texture", "A texture of a scene, for the members *_texture of its materials.")
+  py::class_<TexturePart>(module, "Texture",
+                          "A texture of a scene, for the members *_texture of its materials.")
       .def_property_readonly("index", [](const TexturePart& part) { return part.index; });
   py::class_<MaterialPart> material(
-      module, "Material", "A material of a scene, in the terms of glTF 2.0. A new value counts from the next render.");
+      module, "Material",
+      "A material of a scene, in the terms of glTF 2.0. A new value counts from the next render.");
   material.def_property_readonly("index", [](const MaterialPart& part) { return part.index; });
   material.def("__repr__", [](const MaterialPart& part) {
     return fmt::format("<gatelight.Material {} '{}'>", part.index, get(part).name);

@@ -21,7 +21,8 @@ namespace {
 
 namespace py = pybind11;
 
-constexpr const char* kMetrics[] = {"mse", "rel_mse", "psnr", "mean", "max", "bias", "ssim", "flip", "hdr_flip"};
+constexpr const char* kMetrics[] = {"mse",  "rel_mse", "psnr", "mean",    "max",
+                                    "bias", "ssim",    "flip", "hdr_flip"};
 
 std::vector<std::string> metrics_of(py::handle given) {
   std::vector<std::string> metrics;
@@ -40,7 +41,8 @@ std::vector<std::string> metrics_of(py::handle given) {
 
 double measure(const std::string& metric, const renderer::NamedPicture& reference,
                const renderer::NamedPicture& test, const renderer::FlipOptions& shown) {
-  if (metric == "ssim") return renderer::ssim(reference, test, {.exposure = shown.exposure, .tonemap = shown.tonemap});
+  if (metric == "ssim")
+    return renderer::ssim(reference, test, {.exposure = shown.exposure, .tonemap = shown.tonemap});
   if (metric == "flip") return renderer::ldr_flip(reference, test, shown).summary.mean;
   if (metric == "hdr_flip") return renderer::hdr_flip(reference, test, shown).summary.mean;
   const renderer::ErrorMetrics errors = renderer::compare_pictures(reference, test);
@@ -77,13 +79,15 @@ py::dict compare(const py::object& reference, const py::object& test, const py::
 /// The picture with the layers that are given as arrays.
 PicturePointer noisy(const py::object& color, const py::object& albedo, const py::object& normal) {
   auto data = std::make_shared<PictureData>();
-  if (py::isinstance<PictureData>(color) || py::isinstance<py::str>(color)) *data = *picture_of("color", color);
+  if (py::isinstance<PictureData>(color) || py::isinstance<py::str>(color))
+    *data = *picture_of("color", color);
   if (data->picture.layers.empty()) *data = *picture_of("color", color);
   int &width = data->picture.width, &height = data->picture.height;
   const auto add = [&](const char* name, const py::object& values, std::vector<std::string> channels) {
     if (values.is_none()) return;
     renderer::Layer layer = layer_of(name, values, name, width, height);
-    if (layer.channels.size() != 3) throw BadOption(fmt::format("{}: expected an array of shape (h, w, 3)", name));
+    if (layer.channels.size() != 3)
+      throw BadOption(fmt::format("{}: expected an array of shape (h, w, 3)", name));
     layer.channels = std::move(channels);
     std::erase_if(data->picture.layers, [&](const renderer::Layer& other) { return other.name == name; });
     data->picture.layers.push_back(std::move(layer));
@@ -98,8 +102,8 @@ PicturePointer denoise(const py::object& color, const py::object& albedo, const 
   const apps::RenderSettings settings = read_keywords(keywords);
   for (const std::string& flag : settings.given) {
     if (flag != "--prefilter" && flag != "--oidn" && flag != "--threads" && flag != "--memory-limit")
-      throw BadOption(fmt::format("{}: it is no option of a denoiser, expected prefilter, oidn, threads or memory_limit",
-                                  flag));
+      throw BadOption(fmt::format(
+          "{}: it is no option of a denoiser, expected prefilter, oidn, threads or memory_limit", flag));
   }
   const PicturePointer data = noisy(color, albedo, normal);
   const renderer::RenderOptions& options = settings.render;
@@ -126,8 +130,8 @@ PicturePointer denoise(const py::object& color, const py::object& albedo, const 
 }  // namespace
 
 void add_metrics(py::module_& module) {
-  module.def("compare", compare, py::arg("reference"), py::arg("test"), py::arg("metric"), py::arg("exposure"),
-             py::arg("tonemap"));
+  module.def("compare", compare, py::arg("reference"), py::arg("test"), py::arg("metric"),
+             py::arg("exposure"), py::arg("tonemap"));
   module.def("denoise", denoise, py::arg("color"), py::arg("albedo"), py::arg("normal"));
 }
 

@@ -23,6 +23,7 @@ using PicturePointer = std::shared_ptr<PictureData>;
 PicturePointer picture_of(const char* name, pybind11::handle value);
 
 /// The layer of an array (h, w) or (h, w, c), by the names of its channels.
-renderer::Layer layer_of(const char* name, pybind11::handle values, const char* layer, int& width, int& height);
+renderer::Layer layer_of(const char* name, pybind11::handle values, const char* layer, int& width,
+                         int& height);
 
 }  // namespace gatelight::python

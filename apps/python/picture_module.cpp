@@ -39,8 +39,12 @@ py::buffer_info buffer_of(PictureData& data) {
   std::vector<py::ssize_t> shape = shape_of(data, layer);
   std::vector<py::ssize_t> strides(shape.size(), sizeof(float));
   for (std::size_t i = shape.size() - 1; i > 0; --i) strides[i - 1] = strides[i] * shape[i];
-  return {layer.values.data(), sizeof(float), py::format_descriptor<float>::format(),
-          static_cast<py::ssize_t>(shape.size()), shape, strides};
+  return {layer.values.data(),
+          sizeof(float),
+          py::format_descriptor<float>::format(),
+          static_cast<py::ssize_t>(shape.size()),
+          shape,
+          strides};
 }
 
 const renderer::Layer& find(const PictureData& data, const std::string& name) {
@@ -73,8 +77,10 @@ renderer::ImageWriteOptions image_options(const PictureData& data, const py::kwa
     else if (flag.starts_with("--ocio"))
       image.display.ocio = settings.image.display.ocio;
     else
-      throw BadOption(fmt::format("{}: it is no option of a file, expected exposure, tonemap, white_balance, bits, exr "
-                                  "or ocio", flag));
+      throw BadOption(
+          fmt::format("{}: it is no option of a file, expected exposure, tonemap, white_balance, bits, exr "
+                      "or ocio",
+                      flag));
   }
   return image;
 }
@@ -111,7 +117,8 @@ py::bytes png(const PictureData& data) {
 
 renderer::Layer layer_of(const char* name, py::handle values, const char* layer, int& width, int& height) {
   const py::array given = py::array::ensure(values);
-  const bool fits = given && (given.ndim() == 2 || (given.ndim() == 3 && given.shape(2) == 3)) && given.size() > 0;
+  const bool fits =
+      given && (given.ndim() == 2 || (given.ndim() == 3 && given.shape(2) == 3)) && given.size() > 0;
   if (!given) PyErr_Clear();
   if (!fits)
     throw BadOption(fmt::format("{}: expected a picture, or an array of shape (h, w, 3) or (h, w)", name));
@@ -145,45 +152,56 @@ PicturePointer picture_of(const char* name, py::handle value) {
 void add_picture(py::module_& module) {
   py::class_<PictureData, PicturePointer> picture(
       module, "Picture", py::buffer_protocol(),
-      "A rendered picture. numpy.asarray(picture) is its beauty layer, (h, w, 3) float32 in linear Rec. 709 radiance, rows "
+      "A rendered picture. numpy.asarray(picture) is its beauty layer, (h, w, 3) float32 in linear Rec. 709 "
+      "radiance, rows "
       "from the top, without a copy.");
   picture.def_buffer(buffer_of);
   picture.def("__getitem__",
               [](const PicturePointer& p, const std::string& name) { return array_of(p, find(*p, name)); });
   picture.def("__contains__", [](const PicturePointer& p, const std::string& name) {
     const auto& layers = p->picture.layers;
-    return std::any_of(layers.begin(), layers.end(), [&](const auto& layer) { return name_of(layer) == name; });
+    return std::any_of(layers.begin(), layers.end(),
+                       [&](const auto& layer) { return name_of(layer) == name; });
   });
   picture.def_property_readonly(
       "layers",
       [](const PicturePointer& p) {
         py::dict layers;
-        for (const renderer::Layer& layer : p->picture.layers) layers[py::str(name_of(layer))] = array_of(p, layer);
+        for (const renderer::Layer& layer : p->picture.layers)
+          layers[py::str(name_of(layer))] = array_of(p, layer);
         return layers;
       },
       "Every layer by name, as (h, w) or (h, w, channels) float32, without a copy; 'beauty' is the picture");
   picture.def_property_readonly("width", [](const PicturePointer& p) { return p->picture.width; });
   picture.def_property_readonly("height", [](const PicturePointer& p) { return p->picture.height; });
   picture.def_property_readonly(
-      "metadata", [](const PicturePointer& p) { return p->picture.metadata; }, "How the picture was made, as in an EXR");
+      "metadata", [](const PicturePointer& p) { return p->picture.metadata; },
+      "How the picture was made, as in an EXR");
   picture.def_property_readonly(
-      "statistics", [](const PicturePointer& p) { return py::module_::import("json").attr("loads")(p->statistics); },
+      "statistics",
+      [](const PicturePointer& p) { return py::module_::import("json").attr("loads")(p->statistics); },
       "What --stats writes, as a dict");
-  picture.def("display", [](const PicturePointer& p, const py::kwargs& keywords) { return display(*p, keywords); },
-              "(h, w, 3) uint8 as a PNG shows it. Keywords: exposure (stops or 'auto'), tonemap, white_balance, ocio.");
+  picture.def(
+      "display", [](const PicturePointer& p, const py::kwargs& keywords) { return display(*p, keywords); },
+      "(h, w, 3) uint8 as a PNG shows it. Keywords: exposure (stops or 'auto'), tonemap, white_balance, "
+      "ocio.");
   picture.def(
       "save",
-      [](const PicturePointer& p, const py::object& path, const py::kwargs& keywords) { save(*p, path, keywords); },
+      [](const PicturePointer& p, const py::object& path, const py::kwargs& keywords) {
+        save(*p, path, keywords);
+      },
       py::arg("path"),
-      "Writes .exr (all layers), .png, .jpg, .tif or .hdr. Keywords: those of display(), bits (8 or 16), exr ('half' or "
+      "Writes .exr (all layers), .png, .jpg, .tif or .hdr. Keywords: those of display(), bits (8 or 16), exr "
+      "('half' or "
       "'float').");
   picture.def("_repr_png_", [](const PicturePointer& p) { return png(*p); });
   picture.def("__repr__", [](const PicturePointer& p) {
     return fmt::format("<gatelight.Picture {}x{}, {} layers>", p->picture.width, p->picture.height,
                        p->picture.layers.size());
   });
-  module.def("read", [](const py::object& path) { return picture_of("path", py::str(text_of("path", path))); },
-             py::arg("path"), "Reads a picture: .exr with all layers, .hdr, .png.");
+  module.def(
+      "read", [](const py::object& path) { return picture_of("path", py::str(text_of("path", path))); },
+      py::arg("path"), "Reads a picture: .exr with all layers, .hdr, .png.");
 }
 
 }  // namespace gatelight::python

@@ -9,9 +9,10 @@ namespace gatelight::python {
 namespace py = pybind11;
 
 void add_renderer(py::module_& module) {
-  py::class_<Running> renderer(module, "Renderer",
-                               "Renders one scene several times. What is built for it (the acceleration structure, "
-                               "lights, textures) is kept until the scene changes.");
+  py::class_<Running> renderer(
+      module, "Renderer",
+      "Renders one scene several times. What is built for it (the acceleration structure, "
+      "lights, textures) is kept until the scene changes.");
   renderer.def(py::init([](const ScenePointer& scene, const py::kwargs& options) {
                  return std::make_unique<Running>(scene, options);
                }),
@@ -21,7 +22,8 @@ void add_renderer(py::module_& module) {
                "Renders a picture. After stop() of another thread it is the picture so far.");
   renderer.def(
       "set_camera", [](Running& running, const py::kwargs& view) { running.set_camera(view); },
-      "Another view for the next pictures: camera, eye, target, up, fov, lens, projection, view_height, aperture, focus, "
+      "Another view for the next pictures: camera, eye, target, up, fov, lens, projection, view_height, "
+      "aperture, focus, "
       "blades, view_file. Nothing is built again.");
   renderer.def("stop", &Running::stop, "Ends the render that is under way in another thread.");
   renderer.def_property_readonly("scene", &Running::scene);

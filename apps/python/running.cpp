@@ -10,10 +10,10 @@
 #include "apps/settings/complete_settings.h"
 #include "apps/settings/picture_output.h"
 #include "apps/settings/show_well.h"
+#include "apps/terminal/terminal.h"
 #include "apps/terminal/text.h"
 #include "base/clock.h"
 #include "base/errors.h"
-#include "apps/terminal/terminal.h"
 #include "renderer/denoise/oidn_library.h"
 #include "renderer/image/auto_exposure.h"
 #include "renderer/settings/resolved_options.h"
@@ -27,7 +27,8 @@ namespace py = pybind11;
 class Busy {
  public:
   explicit Busy(std::atomic<bool>& flag) : flag_(flag) {
-    if (flag_.exchange(true)) throw BadOption("the renderer is at work in another thread, expected one render at a time");
+    if (flag_.exchange(true))
+      throw BadOption("the renderer is at work in another thread, expected one render at a time");
   }
   ~Busy() { flag_ = false; }
   Busy(const Busy&) = delete;
@@ -85,7 +86,8 @@ PicturePointer finish_picture(renderer::Picture picture, const renderer::RenderS
   if (const std::string& why = statistics.denoise_failure; !why.empty())
     report.warnings.push_back(fmt::format("the picture keeps its noise: {}", why));
   if (statistics.nonfinite > 0)
-    report.warnings.push_back(fmt::format("{} samples were not finite and are left out", statistics.nonfinite));
+    report.warnings.push_back(
+        fmt::format("{} samples were not finite and are left out", statistics.nonfinite));
   picture.metadata.merge(apps::make_recipe(settings, report.command, statistics, report.total_seconds));
   data->picture = std::move(picture);
   for (const std::string& output : settings.outputs) apps::write_picture(data->picture, output, data->image);
@@ -136,13 +138,15 @@ PicturePointer Running::render(const py::object& progress, const py::object& sto
 
 void Running::set_camera(const py::dict& keywords) {
   const Busy busy(busy_);
-  constexpr const char* kOfView[] = {"camera", "eye",         "target",   "up",    "fov",   "lens",
+  constexpr const char* kOfView[] = {"camera",     "eye",         "target",   "up",    "fov",    "lens",
                                      "projection", "view_height", "aperture", "focus", "blades", "view_file"};
   for (const auto& [key, value] : keywords) {
     const auto name = key.cast<std::string>();
     if (std::find(std::begin(kOfView), std::end(kOfView), name) == std::end(kOfView))
-      throw BadOption(fmt::format("{}: it is no option of the view, expected camera, eye, target, up, fov, lens, "
-                                  "projection, view_height, aperture, focus, blades or view_file", name));
+      throw BadOption(
+          fmt::format("{}: it is no option of the view, expected camera, eye, target, up, fov, lens, "
+                      "projection, view_height, aperture, focus, blades or view_file",
+                      name));
   }
   py::dict merged = keywords_.attr("copy")();
   replace_view(merged, keywords);

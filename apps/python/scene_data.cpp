@@ -35,8 +35,7 @@ void add_warning(scene::Scene& scene, std::string text) {
 /// What the loader does with the arrays of a primitive.
 void complete(scene::Scene& scene, scene::Mesh& mesh) {
   const scene::Warn warn = [&](std::string_view text) { add_warning(scene, std::string(text)); };
-  const std::vector<std::uint32_t> selection =
-      scene::compact_vertices(mesh.triangles, mesh.positions.size());
+  const std::vector<std::uint32_t> selection = scene::compact_vertices(mesh.triangles, mesh.positions.size());
   select(mesh.positions, selection);
   select(mesh.normals, selection);
   select(mesh.uv0, selection);
@@ -67,7 +66,8 @@ void complete_own_meshes(scene::Scene& scene, const std::vector<char>& own) {
 ScenePointer load_scene(const std::string& path, const py::dict& keywords) {
   apps::RenderSettings settings = read_keywords(keywords);
   for (const std::string& flag : settings.given) {
-    if (load_options().contains(flag) || flag == "--threads" || flag == "--fps" || flag == "--shutter") continue;
+    if (load_options().contains(flag) || flag == "--threads" || flag == "--fps" || flag == "--shutter")
+      continue;
     throw BadOption(fmt::format("{}: it does not belong to loading, expected it in gatelight.render", flag));
   }
   settings.scene = path;
@@ -113,9 +113,8 @@ std::shared_ptr<const scene::Scene> finished_scene(const ScenePointer& data) {
   const std::uint64_t revision = data->revision;
   std::shared_ptr<const scene::Scene> scene;
   Waiting waiting;
-  waiting.run([&] {
-    scene = std::make_shared<const scene::Scene>(finish_scene(*data, std::move(unfinished)));
-  });
+  waiting.run(
+      [&] { scene = std::make_shared<const scene::Scene>(finish_scene(*data, std::move(unfinished))); });
   if (revision == data->revision) data->finished = scene;
   return scene;
 }

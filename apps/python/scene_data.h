@@ -24,8 +24,8 @@ struct SceneData {
   std::mutex file_mutex;
   apps::RenderSettings loading;  ///< the options that it was loaded with
   double load_seconds = 0.0;
-  std::optional<double> shown;     ///< time of show(), else that of the options
-  std::uint64_t revision = 0;      ///< of all above
+  std::optional<double> shown;                   ///< time of show(), else that of the options
+  std::uint64_t revision = 0;                    ///< of all above
   std::shared_ptr<const scene::Scene> finished;  ///< of this revision, where there is one
 
   void change() {

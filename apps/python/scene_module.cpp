@@ -69,7 +69,8 @@ void add_facts(py::class_<SceneData, ScenePointer>& scene) {
   scene.def_property_readonly(
       "triangles", [](const ScenePointer& s) { return scene::count_triangles(s->source); },
       "Number of triangles, counted once per instance");
-  scene.def_property_readonly("bounds", bounds_of, "(2, 3) float32: least and greatest corner in metres; None: empty");
+  scene.def_property_readonly("bounds", bounds_of,
+                              "(2, 3) float32: least and greatest corner in metres; None: empty");
   scene.def_property_readonly(
       "origin",
       [](const ScenePointer& s) {
@@ -82,30 +83,36 @@ void add_facts(py::class_<SceneData, ScenePointer>& scene) {
 }  // namespace
 
 void add_scene(py::module_& module) {
-  py::class_<SceneData, ScenePointer> scene(
-      module, "Scene",
-      "Meshes, instances, materials, lights and cameras. Made empty, or by gatelight.load(). The unit is the metre, y is "
-      "up. Changes count from the next render.");
+  py::class_<SceneData, ScenePointer> scene(module, "Scene",
+                                            "Meshes, instances, materials, lights and cameras. Made empty, "
+                                            "or by gatelight.load(). The unit is the metre, y is "
+                                            "up. Changes count from the next render.");
   add_geometry(module);
   add_views(module);
   scene.def(py::init([] { return std::make_shared<SceneData>(); }));
-  scene.def("add_material", make_material,
-            "Adds a material; keywords are the members of gatelight.Material. The default is that of glTF: white, "
-            "metallic 1, roughness 1.");
+  scene.def(
+      "add_material", make_material,
+      "Adds a material; keywords are the members of gatelight.Material. The default is that of glTF: white, "
+      "metallic 1, roughness 1.");
   scene.def("add_texture", make_texture, py::arg("image"), py::kw_only(), py::arg("wrap") = "repeat",
             py::arg("nearest") = false, py::arg("name") = "",
-            "Adds a texture from an array (h, w) or (h, w, 1 to 4) of uint8, rows from the top; wrap is repeat, mirror "
+            "Adds a texture from an array (h, w) or (h, w, 1 to 4) of uint8, rows from the top; wrap is "
+            "repeat, mirror "
             "or clamp.");
-  scene.def("add_mesh", make_mesh, py::arg("positions"), py::arg("triangles"), py::arg("normals") = py::none(),
-            py::arg("uvs") = py::none(), py::arg("material") = py::none(), py::arg("name") = "",
-            "Adds a mesh: positions (n, 3) in metres, triangles (m, 3) of indices, counter-clockwise from the front, "
+  scene.def("add_mesh", make_mesh, py::arg("positions"), py::arg("triangles"),
+            py::arg("normals") = py::none(), py::arg("uvs") = py::none(), py::arg("material") = py::none(),
+            py::arg("name") = "",
+            "Adds a mesh: positions (n, 3) in metres, triangles (m, 3) of indices, counter-clockwise from "
+            "the front, "
             "normals (n, 3) or None for flat ones, uvs (n, 2).");
-  scene.def("add_instance", make_instance, py::arg("mesh"), py::arg("transform") = py::none(), py::arg("name") = "",
+  scene.def("add_instance", make_instance, py::arg("mesh"), py::arg("transform") = py::none(),
+            py::arg("name") = "",
             "Places a mesh in the world: transform (4, 4) for column vectors, None: identity.");
   scene.def("add_light", make_light, py::arg("type"),
             "Adds a light of type point, spot or directional; keywords are the members of gatelight.Light.");
   scene.def("add_camera", make_camera,
-            "Adds a camera; keywords are the members of gatelight.Camera, or eye, target and up for its transform.");
+            "Adds a camera; keywords are the members of gatelight.Camera, or eye, target and up for its "
+            "transform.");
   scene.def("show", show, py::arg("seconds"),
             "Shows another time of the animations of a file that was loaded with a time.");
   add_lists(scene);

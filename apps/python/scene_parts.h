@@ -27,8 +27,8 @@ MeshPart make_mesh(const ScenePointer& scene, pybind11::handle positions, pybind
                    const std::string& name);
 InstancePart make_instance(const ScenePointer& scene, pybind11::handle mesh, pybind11::handle transform,
                            const std::string& name);
-TexturePart make_texture(const ScenePointer& scene, pybind11::handle image, const std::string& wrap, bool nearest,
-                         const std::string& name);
+TexturePart make_texture(const ScenePointer& scene, pybind11::handle image, const std::string& wrap,
+                         bool nearest, const std::string& name);
 LightPart make_light(const ScenePointer& scene, const std::string& type, const pybind11::kwargs& keywords);
 CameraPart make_camera(const ScenePointer& scene, const pybind11::kwargs& keywords);
 

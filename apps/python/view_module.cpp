@@ -44,7 +44,8 @@ using CameraField = Field<scene::Camera>;
 const std::vector<LightField>& light_fields() {
   static const std::vector<LightField> fields = {
       {"name", [](const PunctualLight& l) -> py::object { return py::str(l.name); },
-       [](PunctualLight& l, py::handle v) { l.name = text_of("name", v); }, "Name, for lights and light_groups"},
+       [](PunctualLight& l, py::handle v) { l.name = text_of("name", v); },
+       "Name, for lights and light_groups"},
       {"intensity", [](const PunctualLight& l) -> py::object { return tuple_of(l.intensity); },
        [](PunctualLight& l, py::handle v) { l.intensity = color("intensity", v, kIntensity); },
        "Linear RGB or one number: W/sr (point, spot) or W/m2 (directional)"},
@@ -55,11 +56,17 @@ const std::vector<LightField>& light_fields() {
        "The way that light travels, in the world"},
       {"range", [](const PunctualLight& l) -> py::object { return py::float_(l.range); },
        [](PunctualLight& l, py::handle v) { l.range = number("range", v, kReach); }, "Metres; inf: no end"},
-      {"inner_angle", [](const PunctualLight& l) -> py::object { return py::float_(degrees_of(l.cos_inner)); },
-       [](PunctualLight& l, py::handle v) { l.cos_inner = std::cos(kDegree * number("inner_angle", v, kAngle)); },
+      {"inner_angle",
+       [](const PunctualLight& l) -> py::object { return py::float_(degrees_of(l.cos_inner)); },
+       [](PunctualLight& l, py::handle v) {
+         l.cos_inner = std::cos(kDegree * number("inner_angle", v, kAngle));
+       },
        "Degrees from the axis of a spot to where its light begins to fall"},
-      {"outer_angle", [](const PunctualLight& l) -> py::object { return py::float_(degrees_of(l.cos_outer)); },
-       [](PunctualLight& l, py::handle v) { l.cos_outer = std::cos(kDegree * number("outer_angle", v, kAngle)); },
+      {"outer_angle",
+       [](const PunctualLight& l) -> py::object { return py::float_(degrees_of(l.cos_outer)); },
+       [](PunctualLight& l, py::handle v) {
+         l.cos_outer = std::cos(kDegree * number("outer_angle", v, kAngle));
+       },
        "Degrees from the axis of a spot to its edge"},
   };
   return fields;
@@ -91,15 +98,16 @@ const std::vector<CameraField>& camera_fields() {
 }
 
 template <class Object>
-void set_members(const std::vector<Field<Object>>& fields, const char* what, Object& object, const py::dict& keywords) {
+void set_members(const std::vector<Field<Object>>& fields, const char* what, Object& object,
+                 const py::dict& keywords) {
   std::vector<std::string> names;
   for (const Field<Object>& field : fields) names.emplace_back(field.name);
   for (const auto& [key, value] : keywords) {
     const std::string name = py::str(key);
     const auto found = std::find(names.begin(), names.end(), name);
     if (found == names.end())
-      throw BadOption(fmt::format("{}: {} has no such member, expected one of gatelight.{}{}", name, what, what,
-                                  did_you_mean(name, names)));
+      throw BadOption(fmt::format("{}: {} has no such member, expected one of gatelight.{}{}", name, what,
+                                  what, did_you_mean(name, names)));
     const Field<Object>& field = fields[static_cast<std::size_t>(found - names.begin())];
     field.set(object, value);
   }
@@ -107,11 +115,12 @@ void set_members(const std::vector<Field<Object>>& fields, const char* what, Obj
 
 template <class PartOf, class Object>
 void add_fields(py::class_<PartOf>& type, const std::vector<Field<Object>>& fields,
-                std::vector<Object> scene::Scene::* list) {
+                std::vector<Object> scene::Scene::*list) {
   type.def_property_readonly("index", [](const PartOf& part) { return part.index; });
   for (const Field<Object>& field : fields) {
     type.def_property(
-        field.name, [&field, list](const PartOf& part) { return field.get((part.scene->source.*list)[part.index]); },
+        field.name,
+        [&field, list](const PartOf& part) { return field.get((part.scene->source.*list)[part.index]); },
         [&field, list](const PartOf& part, const py::object& value) {
           field.set((part.scene->source.*list)[part.index], value);
           part.scene->change();
@@ -125,7 +134,8 @@ Affine look_at(const Vec3& eye, const Vec3& target, const Vec3& up) {
   const Vec3 back = (eye - target).stableNormalized();
   const Vec3 right = up.cross(back).stableNormalized();
   if (!right.allFinite() || right.squaredNorm() < 0.5f)
-    throw BadOption("up: it is parallel to the view, or target is the place of eye, expected another direction");
+    throw BadOption(
+        "up: it is parallel to the view, or target is the place of eye, expected another direction");
   Affine transform = Affine::Identity();
   transform.linear().col(0) = right;
   transform.linear().col(1) = back.cross(right);

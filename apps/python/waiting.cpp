@@ -17,10 +17,14 @@ constexpr std::chrono::milliseconds kBetween{50};
 
 const char* word_of(renderer::Phase phase) {
   switch (phase) {
-    case renderer::Phase::scout: return "scout";
-    case renderer::Phase::train: return "train";
-    case renderer::Phase::denoise: return "denoise";
-    case renderer::Phase::render: break;
+    case renderer::Phase::scout:
+      return "scout";
+    case renderer::Phase::train:
+      return "train";
+    case renderer::Phase::denoise:
+      return "denoise";
+    case renderer::Phase::render:
+      break;
   }
   return "render";
 }

@@ -1,5 +1,6 @@
 #pragma once
-// Long work in a thread of its own, while the thread of Python waits for it, hears signals and calls callables.
+// Long work in a thread of its own, while the thread of Python waits for it, hears signals and calls
+// callables.
 
 #include <pybind11/pybind11.h>
 
@@ -19,8 +20,9 @@ class Waiting {
   explicit Waiting(pybind11::object progress = pybind11::none(), pybind11::object stop = pybind11::none(),
                    std::atomic<bool>* stop_flag = nullptr);
 
-  /// Runs the work without Python's lock, and waits. A signal of Python (Ctrl-C) and an exception of a callable
-  /// stop the work and are thrown at its end. Throws what the work throws. Call it with Python's lock.
+  /// Runs the work without Python's lock, and waits. A signal of Python (Ctrl-C) and an exception of a
+  /// callable stop the work and are thrown at its end. Throws what the work throws. Call it with Python's
+  /// lock.
   void run(const std::function<void()>& work);
 
   /// Callbacks for a renderer in the work.

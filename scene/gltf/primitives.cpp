@@ -79,7 +79,8 @@ Mesh load_primitive(const Document& document, const Pose& pose, int primitive_in
 
   const Warn warn = [&](std::string_view text) { warnings.add(text); };
   MeshNeeds needs = mesh_needs(material);
-  choose_directions(needs, vertices.has("TANGENT") && vertices.has("NORMAL"), vertices.has("TEXCOORD_0"), warn);
+  choose_directions(needs, vertices.has("TANGENT") && vertices.has("NORMAL"), vertices.has("TEXCOORD_0"),
+                    warn);
   read_attributes(vertices, needs, selection, mesh);
   morph(vertices, primitive, pose.weights, selection, mesh);
   if (!joints.empty()) apply_skin(document, vertices, joints, selection, mesh, warnings);

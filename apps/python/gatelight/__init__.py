@@ -19,14 +19,14 @@ except ImportError as error:
         "libembree3-3 libtbb12 libopenexr-3-1-30 libopenimageio2.4 libdraco7 libmeshoptimizer2 libfmt9 libspdlog1.10"
     ) from None
 from ._gatelight import (
-    Camera, Error, Frames, Instance, Light, Material, Mesh, Picture, Renderer, Scene, Texture, options, read,
+    Cache, Camera, Error, Frames, Instance, Light, Material, Mesh, Picture, Renderer, Scene, Texture, options, read,
 )
 from ._gatelight import __version__
 from .manual import manual as _manual
 from .points import Points, sample_points
 
 __all__ = [
-    "Camera", "Error", "Frames", "Instance", "Light", "Material", "Mesh", "Picture", "Points", "Renderer", "Scene",
+    "Cache", "Camera", "Error", "Frames", "Instance", "Light", "Material", "Mesh", "Picture", "Points", "Renderer", "Scene",
     "Texture", "compare", "denoise", "frames", "load", "options", "read", "render", "sample_points",
 ]
 
