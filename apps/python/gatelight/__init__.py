@@ -14,6 +14,8 @@ import pathlib
 try:
     from . import _gatelight
 except ImportError as error:
+    if "cannot open shared object file" not in str(error):
+        raise
     raise ImportError(
         f"gatelight needs shared libraries of Debian 12 ({error}): install the packages that apps/python/README.md names, "
         "libembree3-3 libtbb12 libopenexr-3-1-30 libopenimageio2.4 libdraco7 libmeshoptimizer2 libfmt9 libspdlog1.10"
