@@ -6,6 +6,7 @@ import pathlib
 import subprocess
 import sys
 import tempfile
+import types
 import unittest
 
 import numpy
@@ -55,15 +56,20 @@ class Options(unittest.TestCase):
         self.assertEqual(len(pictures), 2)
 
     def test_scene_of_arrays_equals_the_glb(self):
-        from glb import glb_of_square
+        from glb import Glb
+        square = types.SimpleNamespace(
+            positions=[(-1, 0, -1), (1, 0, -1), (1, 0, 1), (-1, 0, 1)], normals=[], uvs=[], triangles=[(0, 2, 1), (0, 3, 2)])
+        glb = Glb("square")
+        glb.place("square", square, glb.material("red", (0.8, 0.2, 0.1), 0.0, 0.5), at=(0.1, 0.2, 0.3), turn=30)
         with tempfile.TemporaryDirectory() as folder:
             path = pathlib.Path(folder, "square.glb")
-            path.write_bytes(glb_of_square())
+            glb.write(path)
             loaded = gatelight.load(path)
         made = gatelight.Scene()
         source = loaded.meshes[0]
         material = made.add_material(base_color=(0.8, 0.2, 0.1), metallic=0, roughness=0.5)
-        made.add_instance(made.add_mesh(source.positions, source.triangles, material=material))
+        mesh = made.add_mesh(source.positions, source.triangles, material=material)
+        made.add_instance(mesh, loaded.instances[0].transform)
         view = dict(eye=(0, 2, 3), target=(0, 0, 0), environment=(1, 1, 1))
         a, b = (numpy.asarray(gatelight.render(scene, **SMALL, **view)) for scene in (loaded, made))
         self.assertTrue((a == b).all() and a.sum() > 0)
