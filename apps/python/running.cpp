@@ -65,7 +65,10 @@ apps::RenderSettings settings_for(const SceneData& scene, const py::dict& keywor
   if (settings.frames.any()) settings.load.time.reset();
   apps::show_well(settings);
   apps::complete_settings(settings);
+  // The scene is loaded: its file may be gone.
+  const std::string path = std::exchange(settings.scene, "");
   apps::check_inputs(settings);
+  settings.scene = path;
   apps::check_outputs(settings);
   if (settings.render.camera.name == "all" && !settings.render.camera.look_at)
     throw BadOption("--camera: 'all' is for several pictures, expected one camera");
