@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/frame_groups.h"
+#include "apps/frame_settings.h"
 #include "apps/preview_video.h"
 #include "apps/render_run.h"
 #include "apps/reports/frame_report.h"
@@ -22,35 +23,6 @@
 
 namespace gatelight::apps {
 namespace {
-
-/// Frames that are scouted for the cache, evenly spread.
-constexpr std::size_t kScouted = 8;
-
-renderer::CameraOptions camera_of_frame(const RenderSettings& settings, int frame) {
-  renderer::CameraOptions camera = settings.render.camera;
-  const int turn = settings.frames.turntable;
-  // In double, and modulo a whole turn: the frames of the second turn are those of the first.
-  if (turn > 0) {
-    const ShutterRange& shutter = settings.frames.shutter;
-    const double each = 2.0 * M_PI / turn;
-    camera.turn = static_cast<float>(each * ((frame % turn + turn) % turn + shutter.middle()));
-    camera.turn_in_shutter = static_cast<float>(each * (shutter.closes - shutter.opens));
-  }
-  return camera;
-}
-
-RenderSettings settings_of_frame(const RenderSettings& whole, int frame) {
-  RenderSettings settings = whole;
-  settings.load.time = whole.frames.seconds(frame);
-  settings.render.checkpoint = {};
-  settings.render.cache.cache_out.clear();
-  settings.frames.range = FrameRange{frame, frame, 1};
-  settings.render.camera = camera_of_frame(whole, frame);
-  if (whole.exposure) settings.image.display.exposure = *whole.exposure;
-  for (std::string& output : settings.outputs) output = name_of_frame(output, frame);
-  settings.stats = name_of_frame(settings.stats, frame);
-  return settings;
-}
 
 std::optional<Failure> described(const std::exception_ptr& error) {
   if (!error) return {};
@@ -114,10 +86,9 @@ std::size_t RenderRun::begin_frames(scene::SceneFile& file, scene::Scene& scene,
   const bool resumed = whole_.render.checkpoint.resume && std::filesystem::exists(checkpoint);
   const std::string before = resumed ? checkpoint : whole_.render.cache.cache_in;
   if (!before.empty()) return go_on(file, scene, renderer, frames, before, resumed);
-  const std::size_t moments = std::min(frames.size(), kScouted);
-  if (renderer::uses_cache(renderer.integrator()) && moments > 1) {
-    for (std::size_t k = 0; k < moments; ++k) {
-      show_frame(file, scene, renderer, frames[k * (frames.size() - 1) / (moments - 1)]);
+  if (renderer::uses_cache(renderer.integrator()) && frames.size() > 1) {
+    for (const int frame : scouted_frames(frames)) {
+      show_frame(file, scene, renderer, frame);
       renderer.scout();
     }
     show_frame(file, scene, renderer, frames.front());

@@ -60,6 +60,11 @@ class SceneFile {
 
   /// The scene at the options' time, for a single call.
   Scene load();
+  /// load() in two parts, between which a program may change materials, lights, cameras, vertices and
+  /// transforms. read() is for a single call; finish() may be called for several copies of its scene, of
+  /// which show() takes the last one.
+  Scene read();
+  void finish(Scene& scene);
   /// Changes the scene that load() gave to another time, to the bits that load_gltf() gives for it. The
   /// options need a time, else nothing moves. Throws as load_gltf() does, with the scene in any state, which
   /// a later call mends.

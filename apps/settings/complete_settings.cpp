@@ -249,18 +249,6 @@ std::set<std::string> flags_without_effect(RenderSettings settings) {
   return flags;
 }
 
-void show_well(RenderSettings& settings) {
-  using renderer::CachePreset;
-  if (!settings.preset) return;
-  const Integrator integrator = settings.render.integrator;
-  const bool radiance = integrator == Integrator::nrc || integrator == Integrator::path;
-  if (radiance && !settings.given.contains("--exposure")) settings.exposure.reset();
-  const bool finished = settings.preset == CachePreset::preview || settings.preset == CachePreset::standard ||
-                        settings.preset == CachePreset::final;
-  if (radiance && finished && !settings.given.contains("--tonemap"))
-    settings.image.display.tonemap = renderer::Tonemap::agx;
-}
-
 void complete_settings(RenderSettings& settings) {
   if (settings.quiet && settings.verbose)
     throw UsageError("--quiet and --verbose exclude each other, expected one");
@@ -293,7 +281,7 @@ void complete_settings(RenderSettings& settings) {
 }
 
 void check_inputs(const RenderSettings& settings) {
-  require_file("the scene", settings.scene);
+  if (!settings.scene.empty()) require_file("the scene", settings.scene);
   if (!settings.render.environment.file.empty()) {
     require_file("the environment", settings.render.environment.file);
     check_image_input(settings.render.environment.file);

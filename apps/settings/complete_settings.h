@@ -12,15 +12,11 @@ namespace gatelight::apps {
 /// where there is none. They are refused, and left out of recipes.
 std::set<std::string> flags_without_effect(RenderSettings settings);
 
-/// Presets of radiance have automatic exposure, and those of finished pictures a curve with room for
-/// highlights. Call it for pictures that are shown, before complete_settings().
-void show_well(RenderSettings& settings);
-
 /// Checks flags against each other (such as the region against the size) and fills in what follows from them:
 /// the view of --eye, the number of threads. Throws UsageError.
 void complete_settings(RenderSettings& settings);
 
-/// Checks before the long work that inputs exist. Throws InputError.
+/// Checks before the long work that inputs exist; a scene without a name is in memory. Throws InputError.
 void check_inputs(const RenderSettings& settings);
 
 /// Checks before the long work that outputs can be written. Throws OutputError or UnknownFormat.

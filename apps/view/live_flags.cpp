@@ -9,6 +9,7 @@
 #include "apps/settings/complete_settings.h"
 #include "apps/settings/flags.h"
 #include "apps/settings/option_table.h"
+#include "apps/settings/show_well.h"
 #include "apps/terminal/errors.h"
 
 namespace gatelight::apps {

@@ -10,13 +10,27 @@
 namespace gatelight::renderer {
 namespace {
 
-/// Searches beside the program, as built and as installed, then where the libraries are installed.
+/// The folder of the program or shared library that has this code; empty where the system does not know it.
+std::filesystem::path own_folder() {
+  Dl_info info{};
+  if (dladdr(reinterpret_cast<const void*>(&own_folder), &info) == 0 || !info.dli_fname) return {};
+  return std::filesystem::path(info.dli_fname).parent_path();
+}
+
+/// Searches beside the program, as built and as installed, beside a module that has this code, then where the
+/// libraries are installed.
 std::filesystem::path find_library() {
   std::error_code error;
+  const std::filesystem::path library = GATELIGHT_IMAGE_LIBRARY;
   const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
-  const std::filesystem::path beside = program.parent_path().parent_path() / GATELIGHT_IMAGE_LIBRARY;
+  const std::filesystem::path beside = program.parent_path().parent_path() / library;
   if (!error && std::filesystem::exists(beside, error)) return beside;
-  return std::filesystem::path(GATELIGHT_INSTALL_PREFIX) / GATELIGHT_IMAGE_LIBRARY;
+  const std::filesystem::path folder = own_folder();
+  for (const std::filesystem::path& file :
+       {folder / library.filename(), folder.parent_path().parent_path() / library}) {
+    if (!folder.empty() && std::filesystem::exists(file, error)) return file;
+  }
+  return std::filesystem::path(GATELIGHT_INSTALL_PREFIX) / library;
 }
 
 const ImageLibrary& load() {

@@ -11,6 +11,7 @@
 #include "base/platform/threads.h"
 #include "scene/bake.h"
 #include "scene/doubled_lamps.h"
+#include "scene/finish.h"
 #include "scene/gltf.h"
 #include "scene/gltf/animation.h"
 #include "scene/gltf/appearance.h"
@@ -27,9 +28,6 @@
 namespace gatelight::scene {
 namespace gltf {
 namespace {
-
-/// Larger coordinates are refused: the square of a triangle's area would overflow single precision.
-constexpr float kLargestCoordinate = 1e9f;
 
 /// The origin of Scene::origin: the scene's centre if that is far away, else zero. Boxes: of the parts.
 Vec3 choose_origin(const Graph& graph, const Parts& parts, const std::vector<Box>& boxes) {
@@ -73,7 +71,8 @@ class Loader {
         document_(path, options, warnings_),
         appearance_(document_) {}
 
-  Scene load() {
+  /// The scene before finish().
+  Scene read() {
     Scene scene;
     scene.path = path_;
     scene.animations = document_.animations();
@@ -91,19 +90,20 @@ class Loader {
     take_lights(graph, scene);
     appearance_.load_images(options_, scene, warnings_);
     take_image_light(scene);
-    if (options_.bake_transforms) bake_transforms(scene);
-    culled_copies_ = separate_doubled_lamps(scene);
-    scene.bounds = compute_bounds(scene);
-    check_bounds(scene, scene.bounds);
     scene.motion = {.instances = std::any_of(scene.instances.begin(), scene.instances.end(),
                                              [](const Instance& i) { return i.moves; }),
                     .lights = graph.lights_move,
                     .image_light = motion_.image_light,
                     .materials = motion_.materials};
-    adjust(scene);
     scene.warnings = warnings_.take();
-    if (options_.time) show(scene, *options_.time);
     return scene;
+  }
+
+  void finish(Scene& scene) {
+    culled_copies_ = finish_geometry(scene, options_.bake_transforms);
+    check_bounds(scene, scene.bounds);
+    adjust(scene);
+    if (options_.time) show(scene, *options_.time);
   }
 
   void show(Scene& scene, double seconds) {
@@ -265,13 +265,8 @@ class Loader {
   }
 
   void check_bounds(const Scene& scene, const Box& bounds) const {
-    if (bounds.isEmpty() && scene.instances.empty()) return;
-    if (bounds.isEmpty() && !scene.bounds.isEmpty()) return;
-    const Vec3 furthest =
-        (scene.origin + bounds.min()).cwiseAbs().cwiseMax((scene.origin + bounds.max()).cwiseAbs());
-    if (furthest.allFinite() && furthest.maxCoeff() <= kLargestCoordinate) return;
-    document_.fail("the world", fmt::format("a vertex at ({}, {}, {}), expected at most {:g} from the origin",
-                                            furthest.x(), furthest.y(), furthest.z(), kLargestCoordinate));
+    const std::string wrong = wrong_bounds(scene, bounds);
+    if (!wrong.empty()) document_.fail("the world", wrong);
   }
 
   LoadOptions options_;
@@ -319,9 +314,19 @@ SceneFile::SceneFile(const std::filesystem::path& path, const LoadOptions& optio
     : implementation_(std::make_unique<Implementation>(path, options)) {}
 SceneFile::~SceneFile() = default;
 
-Scene SceneFile::load() {
+Scene SceneFile::read() {
   Scene scene;
-  implementation_->run([&] { scene = implementation_->loader->load(); });
+  implementation_->run([&] { scene = implementation_->loader->read(); });
+  return scene;
+}
+
+void SceneFile::finish(Scene& scene) {
+  implementation_->run([&] { implementation_->loader->finish(scene); });
+}
+
+Scene SceneFile::load() {
+  Scene scene = read();
+  finish(scene);
   return scene;
 }
 

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "scene/gltf/accessors.h"
+#include "scene/mesh_arrays.h"
 
 namespace gatelight::scene::gltf {
 namespace {
@@ -29,13 +30,8 @@ Triangles assemble(const std::vector<std::uint32_t>& v, bool strip) {
 
 void check_indices(const Document& document, const Triangles& triangles, std::size_t vertex_count,
                    const std::string& where) {
-  for (std::size_t i = 0; i < triangles.size(); ++i) {
-    for (const std::uint32_t index : triangles[i]) {
-      if (index < vertex_count) continue;
-      document.fail(where, fmt::format("index {} in triangle {}, expected less than {} (the vertices)", index,
-                                       i, vertex_count));
-    }
-  }
+  const std::string wrong = wrong_index(triangles, vertex_count);
+  if (!wrong.empty()) document.fail(where, wrong);
 }
 
 Triangles read_triangles(const Document& document, const tinygltf::Primitive& primitive,

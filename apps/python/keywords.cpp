@@ -1,0 +1,168 @@
+#include "apps/python/keywords.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "apps/settings/option_table.h"
+#include "base/errors.h"
+#include "base/nearest_word.h"
+#include "renderer/settings/presets.h"
+
+namespace gatelight::python {
+namespace {
+
+namespace py = pybind11;
+using apps::Option;
+
+constexpr const char* kFrom[] = {"yes", "on", "true"};
+
+std::string keyword_of(std::string flag) {
+  std::replace(flag.begin(), flag.end(), '-', '_');
+  return flag;
+}
+
+bool is_sequence(py::handle value) {
+  return py::isinstance<py::tuple>(value) || py::isinstance<py::list>(value) ||
+         (py::hasattr(value, "tolist") && py::hasattr(value, "__len__") && py::hasattr(value, "shape") &&
+          py::len(value.attr("shape")) > 0);
+}
+
+std::string joined(const std::string& option, py::handle values, const char* separator) {
+  std::string text;
+  bool first = true;
+  for (const py::handle value : values) {
+    text += (first ? "" : separator) + text_of(option, value);
+    first = false;
+  }
+  return text;
+}
+
+/// {"lamp": 2, "sun": (1, 1, 0)} is "lamp=2;sun=1,1,0".
+std::string text_of_dictionary(const std::string& option, const py::dict& values) {
+  std::string text;
+  for (const auto& [name, value] : values) {
+    if (!text.empty()) text += option == "sky" ? "," : ";";
+    text += text_of(option, name) + "=" + text_of(option, value);
+  }
+  return text;
+}
+
+bool toggle_value(const Option& option, py::handle value) {
+  if (py::isinstance<py::bool_>(value)) return value.cast<bool>();
+  const std::string text = text_of(option.name, value);
+  if (std::find(std::begin(kFrom), std::end(kFrom), text) != std::end(kFrom)) return true;
+  if (text == "off" || text == "no" || text == "false") return false;
+  throw BadOption(fmt::format("{}: '{}' is not True or False", option.flag(), text));
+}
+
+void read(const Option& option, py::handle value) {
+  if (option.toggle) {
+    *option.toggle = toggle_value(option, value);
+    return;
+  }
+  if (option.list) {
+    option.list->clear();
+    if (!is_sequence(value)) option.list->push_back(text_of(option.name, value));
+    if (is_sequence(value))
+      for (const py::handle word : value) option.list->push_back(text_of(option.name, word));
+    return;
+  }
+  const std::string text = text_of(option.name, value);
+  if (text.empty()) throw BadOption(fmt::format("{}: '' is empty, expected a value or None", option.flag()));
+  option.read(text);
+}
+
+/// The option of each keyword. Throws BadOption for other names.
+std::vector<std::pair<const Option*, py::handle>> match(const std::vector<Option>& table,
+                                                        const py::dict& keywords) {
+  std::vector<std::pair<const Option*, py::handle>> matched;
+  for (const auto& [key, value] : keywords) {
+    const auto name = key.cast<std::string>();
+    const auto found = std::find_if(table.begin(), table.end(), [&](const Option& option) {
+      return !option.positional && keyword_of(option.name) == name;
+    });
+    if (found == table.end()) {
+      std::vector<std::string> names;
+      for (const Option& option : table) names.push_back(keyword_of(option.name));
+      throw BadOption(fmt::format("{}: there is no such option, expected one of gatelight.options(){}", name,
+                                  did_you_mean(name, names)));
+    }
+    if (!value.is_none()) matched.emplace_back(&*found, value);
+  }
+  return matched;
+}
+
+}  // namespace
+
+std::string text_of(const std::string& option, py::handle value) {
+  if (py::isinstance<py::str>(value)) return value.cast<std::string>();
+  if (py::isinstance<py::bool_>(value)) return value.cast<bool>() ? "on" : "off";
+  if (py::isinstance<py::dict>(value)) return text_of_dictionary(option, value.cast<py::dict>());
+  if (PyIndex_Check(value.ptr()) != 0) return py::str(py::int_(value.attr("__index__")()));
+  if (is_sequence(value))
+    return joined(option, value, option == "size" ? "x" : option == "shutter" ? ":" : ",");
+  if (py::hasattr(value, "__float__")) return py::repr(py::float_(value.attr("__float__")()));
+  if (py::hasattr(value, "__fspath__")) return py::str(value.attr("__fspath__")());
+  if (PyRange_Check(value.ptr())) {
+    const auto step = value.attr("step").cast<int>();
+    return fmt::format("{}:{}:{}", value.attr("start").cast<int>(),
+                       value.attr("stop").cast<int>() - (step > 0 ? 1 : -1), step);
+  }
+  throw BadOption(fmt::format("--{}: '{}' is not a number, a word, a tuple or a dictionary", option,
+                              std::string(py::str(py::repr(value)))));
+}
+
+apps::RenderSettings read_keywords(const py::dict& keywords) {
+  apps::RenderSettings settings;
+  const std::vector<Option> table = apps::option_table(settings);
+  const auto values = match(table, keywords);
+  const auto read_all = [&] {
+    for (const auto& [option, value] : values) {
+      read(*option, value);
+      settings.given.insert(option->flag());
+    }
+  };
+  read_all();
+  if (settings.preset) {
+    const auto apply = settings.frames.any() ? renderer::apply_preset_of_frames : renderer::apply_preset;
+    apply(*settings.preset, settings.render);
+    read_all();  // options beside a preset win
+  }
+  return settings;
+}
+
+const std::set<std::string>& load_options() {
+  static const std::set<std::string> names = {
+      "--scene-index", "--variant", "--time",    "--animation",      "--show-hidden",    "--backfaces",
+      "--lights",      "--ies",     "--missing", "--allow-external", "--ignore-required"};
+  return names;
+}
+
+void add_options(py::module_& module) {
+  module.def(
+      "options",
+      [] {
+        apps::RenderSettings settings;
+        py::dict all;
+        for (const Option& option : apps::option_table(settings)) {
+          if (option.positional) continue;
+          const bool shows = option.value && !option.list && !option.toggle;
+          py::dict entry;
+          entry["help"] = option.help;
+          entry["values"] = option.toggle ? "True|False" : option.unit;
+          entry["default"] = option.toggle                  ? "False"
+                             : !option.default_text.empty() ? option.default_text
+                             : shows                        ? option.text()
+                                                            : "";
+          entry["group"] = option.group;
+          entry["common"] = option.common;
+          all[py::str(keyword_of(option.name))] = entry;
+        }
+        return all;
+      },
+      "Every option by name: a dict with its help, values, default, group, and whether it is common.");
+}
+
+}  // namespace gatelight::python

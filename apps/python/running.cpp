@@ -1,0 +1,162 @@
+#include "apps/python/running.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "apps/python/keywords.h"
+#include "apps/python/waiting.h"
+#include "apps/reports/recipe.h"
+#include "apps/settings/complete_settings.h"
+#include "apps/settings/picture_output.h"
+#include "apps/settings/show_well.h"
+#include "apps/terminal/terminal.h"
+#include "apps/terminal/text.h"
+#include "base/clock.h"
+#include "base/errors.h"
+#include "renderer/denoise/oidn_library.h"
+#include "renderer/image/auto_exposure.h"
+#include "renderer/settings/resolved_options.h"
+
+namespace gatelight::python {
+namespace {
+
+namespace py = pybind11;
+
+/// A flag during its lifetime.
+class Busy {
+ public:
+  explicit Busy(std::atomic<bool>& flag) : flag_(flag) {
+    if (flag_.exchange(true))
+      throw BadOption("the renderer is at work in another thread, expected one render at a time");
+  }
+  ~Busy() { flag_ = false; }
+  Busy(const Busy&) = delete;
+  Busy& operator=(const Busy&) = delete;
+
+ private:
+  std::atomic<bool>& flag_;
+};
+
+/// Keywords of the view. A view by hand replaces one by name, and the other way round.
+void replace_view(py::dict& keywords, const py::dict& view) {
+  constexpr const char* kByHand[] = {"eye", "target", "up"};
+  bool by_hand = false;
+  for (const char* name : kByHand) by_hand |= view.contains(name);
+  if (view.contains("camera")) {
+    for (const char* name : kByHand) keywords.attr("pop")(name, py::none());
+  }
+  if (by_hand) keywords.attr("pop")("camera", py::none());
+  for (const auto& [name, value] : view) keywords[name] = value;
+}
+
+}  // namespace
+
+apps::RenderSettings settings_for(const SceneData& scene, const py::dict& keywords) {
+  apps::RenderSettings settings = read_keywords(keywords);
+  for (const std::string& flag : settings.given) {
+    if (load_options().contains(flag))
+      throw BadOption(fmt::format("{}: it belongs to loading, expected it in gatelight.load", flag));
+  }
+  settings.scene = scene.source.path;
+  settings.load = scene.loading.load;
+  if (!settings.given.contains("--fps")) settings.frames.fps = scene.loading.frames.fps;
+  if (!settings.given.contains("--shutter")) settings.frames.shutter = scene.loading.frames.shutter;
+  if (settings.frames.any()) settings.load.time.reset();
+  apps::show_well(settings);
+  apps::complete_settings(settings);
+  // The scene is loaded: its file may be gone.
+  const std::string path = std::exchange(settings.scene, "");
+  apps::check_inputs(settings);
+  settings.scene = path;
+  apps::check_outputs(settings);
+  if (settings.render.camera.name == "all" && !settings.render.camera.look_at)
+    throw BadOption("--camera: 'all' is for several pictures, expected one camera");
+  if (scene.shown) settings.load.time = scene.shown;
+  return settings;
+}
+
+PicturePointer finish_picture(renderer::Picture picture, const renderer::RenderStatistics& statistics,
+                              const apps::RenderSettings& settings, apps::RunReport report) {
+  if (!statistics.device_lost.empty()) throw DeviceLost(statistics.device_lost);
+  if (!statistics.cache.diverged.empty()) throw TrainingDiverged(statistics.cache.diverged);
+  auto data = std::make_shared<PictureData>();
+  data->image = settings.image;
+  if (!settings.exposure) data->image.display.exposure = renderer::auto_exposure(picture);
+  report.statistics = statistics;
+  report.exposure = data->image.display.exposure;
+  for (const std::string& warning : statistics.warnings) report.warnings.push_back(apps::with_flags(warning));
+  if (const std::string& why = statistics.denoise_failure; !why.empty())
+    report.warnings.push_back(fmt::format("the picture keeps its noise: {}", why));
+  if (statistics.nonfinite > 0)
+    report.warnings.push_back(
+        fmt::format("{} samples were not finite and are left out", statistics.nonfinite));
+  picture.metadata.merge(apps::make_recipe(settings, report.command, statistics, report.total_seconds));
+  data->picture = std::move(picture);
+  for (const std::string& output : settings.outputs) apps::write_picture(data->picture, output, data->image);
+  data->statistics = apps::stats_json(settings, report);
+  if (!settings.stats.empty()) apps::write_text(settings.stats, data->statistics);
+  return data;
+}
+
+Running::Running(ScenePointer scene, const py::dict& keywords)
+    : scene_(std::move(scene)), keywords_(keywords), settings_(settings_for(*scene_, keywords_)) {}
+
+void Running::build(Unfinished unfinished) {
+  renderer_.reset();
+  built_.reset();
+  built_ = std::make_shared<const scene::Scene>(finish_scene(*scene_, std::move(unfinished)));
+  renderer_ = std::make_unique<renderer::Renderer>(*built_, settings_.render);
+}
+
+PicturePointer Running::render(const py::object& progress, const py::object& stop) {
+  const Busy busy(busy_);
+  if (settings_.frames.range)
+    throw BadOption("--frames: they are several pictures, expected gatelight.frames()");
+  stop_ = false;
+  const Clock::time_point start = Clock::now();
+  const bool changed = !renderer_ || revision_ != scene_->revision;
+  if (scene_->shown) settings_.load.time = scene_->shown;
+  Unfinished unfinished;
+  if (changed) unfinished = copy_of(*scene_);
+  revision_ = scene_->revision;
+  apps::RunReport report;
+  report.command = {"gatelight.render"};
+  report.load_seconds = scene_->load_seconds;
+  PicturePointer picture;
+  Waiting waiting(progress, stop, &stop_);
+  waiting.run([&] {
+    if (settings_.render.denoise.denoiser == renderer::DenoiserKind::oidn)
+      renderer::load_oidn(settings_.render.denoise.library);
+    if (changed) build(std::move(unfinished));
+    apps::RenderSettings settings = settings_;
+    if (settings.render.choose_integrator) renderer::use_integrator(settings.render, renderer_->integrator());
+    for (const std::string& warning : built_->warnings) report.warnings.push_back(apps::with_flags(warning));
+    renderer::Picture made = renderer_->render(waiting.callbacks());
+    report.total_seconds = seconds_since(start);
+    picture = finish_picture(std::move(made), renderer_->statistics(), settings, report);
+  });
+  return picture;
+}
+
+void Running::set_camera(const py::dict& keywords) {
+  const Busy busy(busy_);
+  constexpr const char* kOfView[] = {"camera",     "eye",         "target",   "up",    "fov",    "lens",
+                                     "projection", "view_height", "aperture", "focus", "blades", "view_file"};
+  for (const auto& [key, value] : keywords) {
+    const auto name = key.cast<std::string>();
+    if (std::find(std::begin(kOfView), std::end(kOfView), name) == std::end(kOfView))
+      throw BadOption(
+          fmt::format("{}: it is no option of the view, expected camera, eye, target, up, fov, lens, "
+                      "projection, view_height, aperture, focus, blades or view_file",
+                      name));
+  }
+  py::dict merged = keywords_.attr("copy")();
+  replace_view(merged, keywords);
+  apps::RenderSettings settings = settings_for(*scene_, merged);
+  if (renderer_) renderer_->set_camera(settings.render.camera);
+  keywords_ = merged;
+  settings_ = settings;
+}
+
+}  // namespace gatelight::python

@@ -1,0 +1,105 @@
+"""Options by name, errors, pictures of the same bits as the program's, stubs."""
+
+import ast
+import inspect
+import pathlib
+import subprocess
+import sys
+import tempfile
+import types
+import unittest
+
+import numpy
+from support import DATA, PROGRAM, SMALL, SOURCE, gatelight, lit_square, main
+
+sys.path.insert(0, str(SOURCE / "scripts/scenes"))
+
+
+class Options(unittest.TestCase):
+    def test_forms(self):
+        scene = lit_square()
+        forms = (dict(size=(24, 16), environment=(1, 0.5, 0), mis="power"), dict(size="24x16", environment="1,0.5,0", mis="power"))
+        pictures = [numpy.asarray(gatelight.render(scene, preset=None, spp="2", **form)) for form in forms]
+        self.assertTrue((pictures[0] == pictures[1]).all())
+
+    def test_errors_have_fields(self):
+        for options, option, value, expected in (
+            (dict(spp=-1), "spp", "-1", "an integer from 1 to 16777216"),
+            (dict(mis="powr"), "mis", "powr", "one of"),
+            (dict(sppp=3), "sppp", None, "one of gatelight.options()"),
+            (dict(eye=(0, 0, 0)), "target", None, None),
+            (dict(time=1), "time", None, "it in gatelight.load"),
+            (dict(checkpoint=""), "checkpoint", "", "a value or None"),
+        ):
+            with self.assertRaises(gatelight.Error) as caught:
+                gatelight.render(lit_square(), **{**SMALL, **options})
+            error = caught.exception
+            self.assertEqual((error.option, error.value), (option, value), str(error))
+            self.assertTrue(expected is None or error.expected.startswith(expected), str(error))
+        with self.assertRaises(gatelight.Error) as caught:
+            gatelight.load("/nothing.glb")
+        self.assertEqual((caught.exception.option, caught.exception.code), (None, 2))
+
+    def test_bits_of_the_program(self):
+        with tempfile.TemporaryDirectory() as folder:
+            ours, theirs = pathlib.Path(folder, "a.exr"), pathlib.Path(folder, "b.exr")
+            gatelight.render(DATA / "cornell-box.glb", size=(48, 32), preset=None, integrator="nrc", spp=4, train_steps=16,
+                             denoiser="none", aov="albedo", reproducible=True, output=ours)
+            subprocess.run([PROGRAM, "render", DATA / "cornell-box.glb", "-o", theirs, "--size", "48x32", "--spp", "4",
+                            "--integrator", "nrc", "--train-steps", "16", "--denoiser", "none", "--aov", "albedo",
+                            "--reproducible", "--quiet"], check=True)
+            self.assertEqual(ours.read_bytes(), theirs.read_bytes())
+            self.assertEqual(gatelight.read(ours).metadata["spp"], "4")
+
+    def test_frames(self):
+        pictures = list(gatelight.frames(DATA / "turntable.glb", size=(32, 18), preset=None, spp=1, frames=range(2)))
+        self.assertEqual(len(pictures), 2)
+
+    def test_scene_of_arrays_equals_the_glb(self):
+        from glb import Glb
+        square = types.SimpleNamespace(
+            positions=[(-1, 0, -1), (1, 0, -1), (1, 0, 1), (-1, 0, 1)], normals=[], uvs=[], triangles=[(0, 2, 1), (0, 3, 2)])
+        glb = Glb("square")
+        glb.place("square", square, glb.material("red", (0.8, 0.2, 0.1), 0.0, 0.5), at=(0.1, 0.2, 0.3), turn=30)
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder, "square.glb")
+            glb.write(path)
+            loaded = gatelight.load(path)
+        made = gatelight.Scene()
+        source = loaded.meshes[0]
+        material = made.add_material(base_color=(0.8, 0.2, 0.1), metallic=0, roughness=0.5)
+        mesh = made.add_mesh(source.positions, source.triangles, material=material)
+        made.add_instance(mesh, loaded.instances[0].transform)
+        view = dict(eye=(0, 2, 3), target=(0, 0, 0), environment=(1, 1, 1))
+        a, b = (numpy.asarray(gatelight.render(scene, **SMALL, **view)) for scene in (loaded, made))
+        self.assertTrue((a == b).all() and a.sum() > 0)
+
+
+class Stubs(unittest.TestCase):
+    def test_stubs_agree_with_the_module(self):
+        tree = ast.parse(pathlib.Path(gatelight.__file__).with_name("__init__.pyi").read_text())
+        functions = {n.name: n for n in tree.body if isinstance(n, ast.FunctionDef)}
+        classes = {n.name: n for n in tree.body if isinstance(n, ast.ClassDef)}
+        options = {n.target.id for n in classes.pop("Options").body if isinstance(n, ast.AnnAssign)}
+        self.assertEqual(options, set(gatelight.options()) - {"size", "preset", "spp", "progress"})
+        self.assertEqual(set(functions) | set(classes), set(gatelight.__all__))
+        for name in ("render", "frames", "load", "denoise", "compare", "sample_points"):
+            a = functions[name].args
+            stub = [x.arg for x in a.args + a.kwonlyargs] + ([a.kwarg.arg] if a.kwarg else [])
+            self.assertEqual(stub, list(inspect.signature(getattr(gatelight, name)).parameters), name)
+        for name, node in classes.items():
+            stub = {n.name for n in node.body if isinstance(n, ast.FunctionDef)}
+            stub |= {n.target.id for n in node.body if isinstance(n, ast.AnnAssign)}
+            real = {m for m in vars(getattr(gatelight, name)) if not m.startswith("_")}
+            public = {m for m in stub if not m.startswith("_")}
+            if name == "Points":
+                continue
+            self.assertEqual(public, real, name)
+
+    def test_help_is_a_page(self):
+        self.assertLess(len(gatelight.render.__doc__.splitlines()), 70)
+        self.assertTrue(all(len(line) < 125 for line in gatelight.render.__doc__.splitlines()))
+
+
+if __name__ == "__main__":
+    main()
