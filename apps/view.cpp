@@ -15,7 +15,10 @@
 #include "apps/terminal/signals.h"
 #include "apps/terminal/terminal.h"
 #include "apps/view/open_browser.h"
+#include "apps/view/picture_file.h"
 #include "apps/view/view_api.h"
+#include "apps/view/view_session.h"
+#include "renderer/image/image_format.h"
 
 namespace gatelight::apps {
 namespace {
@@ -23,12 +26,13 @@ namespace {
 constexpr const char* kViewFooter =
     R"(Opens a page in the browser on this machine that shows the scene and refines the picture while nothing changes, to the
 very picture that `gatelight render` gives with the same flags (--preset final, if neither a preset nor an integrator is
-given). Drag to turn the view; the keys are listed behind the page's "?". The page saves EXR and PNG, and copies the
+given). A finished picture is shown in the same page. Drag to turn the view; the keys are listed behind the page's "?". The page saves EXR and PNG, and copies the
 command of the picture. The server answers only this machine, and only under the address that is printed.
 
 Examples:
   gatelight view room.glb
   gatelight view room.glb --size 1280x720 --preset standard
+  gatelight view room.exr
   gatelight view house.glb --sky "sun=200,30" --port 8000 --no-browser)";
 
 constexpr auto kPoll = std::chrono::milliseconds(100);
@@ -58,21 +62,36 @@ std::vector<Option> window_options(WindowSettings& window) {
   return table;
 }
 
-int run_view(WindowSettings window) {
+bool is_picture(const std::string& file) {
+  return renderer::image_format(file) != renderer::ImageFormat::unknown;
+}
+
+/// The scene or the picture.
+std::unique_ptr<PictureSource> open_source(const WindowSettings& window) {
+  const std::string& file = window.render.scene;
   std::vector<std::string> words = given_words(window.render);
   const std::set<std::string>& given = window.render.given;
+  if (is_picture(file)) {
+    if (!given.contains("--exposure")) words.emplace_back("--exposure=auto");
+    return std::make_unique<PictureFile>(file, std::move(words));
+  }
   if (!given.contains("--preset") && !given.contains("--integrator"))
     words.insert(words.begin(), "--preset=final");
+  auto session = std::make_unique<ViewSession>(file, std::move(words));
+  for (const std::string& warning : session->warnings()) log_warning(warning);
+  return session;
+}
+
+int run_view(const WindowSettings& window) {
   install_signal_handlers();
-  ViewSession session(window.render.scene, words);
-  for (const std::string& warning : session.warnings()) log_warning(warning);
-  ViewApi api(session);
+  const std::unique_ptr<PictureSource> source = open_source(window);
+  ViewApi api(*source);
   WebServer server(window.port, [&api](const WebRequest& request) { return api.answer(request); });
   print_status(fmt::format("{}\n", server.address()));
   if (!window.no_browser) open_browser(server.address());
   std::jthread watch([&](const std::stop_token& over) {
     while (!over.stop_requested() && stop_signal() == 0) std::this_thread::sleep_for(kPoll);
-    session.stop();
+    source->stop();
     server.stop();
   });
   server.serve();

@@ -28,7 +28,7 @@ ordered_json values_at(const Layer& layer, std::size_t pixel) {
 
 }  // namespace
 
-ordered_json pixel_report(const renderer::Picture& picture, const SceneOutline& outline, double x, double y) {
+ordered_json pixel_report(const renderer::Picture& picture, const SceneOutline* outline, double x, double y) {
   if (!(x >= 0.0 && x <= 1.0 && y >= 0.0 && y <= 1.0))
     throw BadOption("x, y: expected a place in the picture, 0 to 1");
   const int column = std::min(static_cast<int>(x * picture.width), picture.width - 1);
@@ -42,13 +42,13 @@ ordered_json pixel_report(const renderer::Picture& picture, const SceneOutline& 
   json["layers"] = layers;
   const Layer* instances = picture.find(renderer::enum_name(Aov::instance_id));
   const Layer* positions = picture.find(renderer::enum_name(Aov::position));
-  if (!instances || !positions) return json;
+  if (!outline || !instances || !positions) return json;
   const float number = instances->values[pixel];
-  if (!(number >= 0.0f) || static_cast<std::size_t>(number) >= outline.instances.size()) return json;
+  if (!(number >= 0.0f) || static_cast<std::size_t>(number) >= outline->instances.size()) return json;
   const auto instance = static_cast<std::size_t>(number);
-  json["object"] = outline.instances[instance];
+  json["object"] = outline->instances[instance];
   json["position"] = values_at(*positions, pixel);
-  if (const std::optional<Box> box = outline.object_around(instance)) {
+  if (const std::optional<Box> box = outline->object_around(instance)) {
     const Vec3 center = box->center();
     json["center"] = {center.x(), center.y(), center.z()};
     json["radius"] = 0.5f * box->diagonal().norm();

@@ -89,6 +89,21 @@ ordered_json describe(const ShownPicture& shown) {
   return json;
 }
 
+ordered_json describe(const SceneOutline& outline) {
+  ordered_json cameras = ordered_json::array(), animations = ordered_json::array();
+  for (const SceneOutline::NamedCamera& camera : outline.cameras)
+    cameras.push_back({{"name", camera.name}, {"orthographic", camera.orthographic}});
+  for (const scene::Animation& animation : outline.animations)
+    animations.push_back({{"name", animation.name}, {"seconds", animation.seconds}});
+  return {{"cameras", cameras},
+          {"lights", outline.lights},
+          {"glowing", outline.glowing},
+          {"animations", animations},
+          {"center", {outline.center.x(), outline.center.y(), outline.center.z()}},
+          {"radius", outline.radius},
+          {"has_own_light", outline.has_own_light}};
+}
+
 /// Where a wide picture is made, and the page asks for a layer that drafts lack, the last whole one is shown.
 const renderer::Picture* picture_with(const ShownPicture* shown, const std::string& layer) {
   if (!shown || (!layer.empty() && shown->picture.find(layer) == nullptr)) return nullptr;
@@ -126,27 +141,19 @@ WebResponse ViewApi::route(const WebRequest& request, const std::string& viewer)
 }
 
 WebResponse ViewApi::scene(const std::string& viewer) {
-  const SceneOutline& outline = session_.outline();
-  ordered_json cameras = ordered_json::array(), animations = ordered_json::array();
-  for (const SceneOutline::NamedCamera& camera : outline.cameras)
-    cameras.push_back({{"name", camera.name}, {"orthographic", camera.orthographic}});
-  for (const scene::Animation& animation : outline.animations)
-    animations.push_back({{"name", animation.name}, {"seconds", animation.seconds}});
   ordered_json words = ordered_json::object();
-  for (const std::string& word : session_.words()) {
+  for (const std::string& word : source_.words()) {
     const std::size_t equals = word.find('=');
     if (equals != std::string::npos) words[word.substr(2, equals - 2)] = word.substr(equals + 1);
   }
-  return json_response({{"file", session_.file()},
-                        {"cameras", cameras},
-                        {"lights", outline.lights},
-                        {"glowing", outline.glowing},
-                        {"animations", animations},
-                        {"center", {outline.center.x(), outline.center.y(), outline.center.z()}},
-                        {"radius", outline.radius},
-                        {"has_own_light", outline.has_own_light},
-                        {"given", words},
-                        {"flags", session_.flags(viewer)}});
+  ordered_json json{{"file", source_.file()}, {"given", words}, {"flags", source_.flags(viewer)}};
+  if (const SceneOutline* outline = source_.outline()) {
+    json.update(describe(*outline));
+  } else if (const auto shown = source_.last_whole(viewer)) {
+    json["layers"] = ordered_json::array();
+    for (const renderer::Layer& layer : shown->picture.layers) json["layers"].push_back(layer.name);
+  }
+  return json_response(json);
 }
 
 WebResponse ViewApi::change(const WebRequest& request, const std::string& viewer) {
@@ -157,15 +164,15 @@ WebResponse ViewApi::change(const WebRequest& request, const std::string& viewer
       flags[name] = value.is_null() ? std::nullopt : std::optional(value.get<std::string>());
   }
   const std::string layer = json.value("layer", "");
-  return json_response({{"revision", session_.change(viewer, flags, layer)}});
+  return json_response({{"revision", source_.change(viewer, flags, layer)}});
 }
 
 WebResponse ViewApi::picture(const WebRequest& request, const std::string& viewer) {
   const std::string layer = parameter(request, "layer");
   const auto after = static_cast<std::uint64_t>(parse_integer("after", parameter(request, "after"), {}));
-  const auto shown = session_.wait(viewer, after, kLongestWait);
+  const auto shown = source_.wait(viewer, after, kLongestWait);
   if (!shown) return {.status = 204};
-  const auto whole = session_.last_whole(viewer);
+  const auto whole = source_.last_whole(viewer);
   const renderer::Picture* picture = picture_with(shown.get(), layer);
   if (!picture) picture = picture_with(whole.get(), layer);
   // The layer comes with the next whole picture.
@@ -185,8 +192,8 @@ WebResponse ViewApi::picture(const WebRequest& request, const std::string& viewe
 }
 
 WebResponse ViewApi::status(const std::string& viewer) {
-  const ViewerStatus status = session_.status(viewer);
-  const auto whole = session_.last_whole(viewer);
+  const ViewerStatus status = source_.status(viewer);
+  const auto whole = source_.last_whole(viewer);
   constexpr const char* kPhases[] = {"scout", "train", "render", "denoise"};
   const renderer::Progress& p = status.progress;
   ordered_json json{{"revision", status.revision},
@@ -214,24 +221,24 @@ WebResponse ViewApi::status(const std::string& viewer) {
                     {"light_change", s.cache.light_change}};
     if (s.estimated_error) json["last"]["estimated_error"] = *s.estimated_error;
   }
-  json["command"] = render_command(session_.file(), session_.words(), session_.flags(viewer));
+  json["command"] = source_.command(viewer);
   return json_response(json);
 }
 
 WebResponse ViewApi::pixel(const WebRequest& request, const std::string& viewer) {
-  const auto whole = session_.last_whole(viewer);
+  const auto whole = source_.last_whole(viewer);
   if (!whole) return json_response(ordered_json::object());
   return json_response(
-      pixel_report(whole->picture, session_.outline(), place(request, "x"), place(request, "y")));
+      pixel_report(whole->picture, source_.outline(), place(request, "x"), place(request, "y")));
 }
 
 WebResponse ViewApi::save(const WebRequest& request, const std::string& viewer) {
   const std::string format = parameter(request, "format");
   if (format != "exr" && format != "png") throw BadOption("format: expected exr or png");
-  const auto whole = session_.last_whole(viewer);
+  const auto whole = source_.last_whole(viewer);
   if (!whole) return error_response(404, "there is no picture yet");
   renderer::Picture picture = whole->picture;
-  const std::string command = render_command(session_.file(), session_.words(), session_.flags(viewer));
+  const std::string command = source_.command(viewer);
   picture.metadata.merge(make_recipe(whole->settings, {command}, whole->statistics, whole->seconds));
   renderer::ImageWriteOptions options = whole->settings.image;
   options.display = display_of(*whole);

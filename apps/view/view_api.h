@@ -1,15 +1,15 @@
 #pragma once
 // The requests of a window's page, as its script sends them (README.md lists them).
 
-#include "apps/view/view_session.h"
+#include "apps/view/picture_source.h"
 #include "apps/view/web_server.h"
 
 namespace gatelight::apps {
 
 class ViewApi {
  public:
-  /// The session must outlive it.
-  explicit ViewApi(ViewSession& session) : session_(session) {}
+  /// The source must outlive it.
+  explicit ViewApi(PictureSource& source) : source_(source) {}
 
   /// Any thread may call it. Never throws: what a request does wrong is in its answer, as {"error": "..."}.
   WebResponse answer(const WebRequest& request);
@@ -23,7 +23,7 @@ class ViewApi {
   WebResponse pixel(const WebRequest& request, const std::string& viewer);
   WebResponse save(const WebRequest& request, const std::string& viewer);
 
-  ViewSession& session_;
+  PictureSource& source_;
 };
 
 }  // namespace gatelight::apps

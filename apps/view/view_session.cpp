@@ -91,6 +91,10 @@ LiveFlags ViewSession::flags(const std::string& name) {
   return viewer(name).flags;
 }
 
+std::string ViewSession::command(const std::string& name) {
+  return render_command(file_, words_, flags(name));
+}
+
 ViewerStatus ViewSession::status(const std::string& name) {
   const std::lock_guard lock(mutex_);
   Viewer& of = viewer(name);
@@ -195,16 +199,11 @@ void ViewSession::prepare(const Task& task) {
   environment_ = task.settings.render.environment;
   new_light_ = new_light_ || moved || !same_environment || !shares_cache_;
   const renderer::RenderOptions options = options_of(task);
-  if (!renderer_ || broken_) {
-    renderer_.reset();
-    shares_cache_ = false;
-    renderer_.emplace(scene_.scene(), options);
-  } else {
-    broken_ = true;
-    renderer_->set_options(options);
-    if (moved) renderer_->scene_moved(options.camera);
-  }
-  broken_ = false;
+  // Where the renderer cannot take the options, the next picture has to show it the scene.
+  moved_ = moved_ || moved;
+  renderer_->set_options(options);
+  if (moved_) renderer_->scene_moved(options.camera);
+  moved_ = false;
   if (task.stage != Stage::final && !shares_cache_) {
     renderer_->begin_frames(task.settings.load.time.value_or(0.0));
     shares_cache_ = true;

@@ -118,14 +118,13 @@ void PreparedPicture::set_options(const RenderOptions& chosen) {
   const FlushDenormals flush;  // also on the arena's threads, which begin here
   if (chosen.threads > 0 && chosen.threads != threads)
     throw BadOption(fmt::format("`threads` {}: expected {}, as before", chosen.threads, threads));
-  const std::optional<WorldOptions> before = world ? std::optional(world_options()) : std::nullopt;
   choose_options(chosen);
   require_threads(threads);
   if (chosen_denoiser.library && !denoiser)
     denoiser = std::make_unique<Denoiser>(*chosen_denoiser.library, threads,
                                           memory_of_denoiser(scene, options_of_picture));
   const Clock::time_point start = Clock::now();
-  build_world(before);
+  build_world();
   set_camera(options.camera);
   choose_integrator();
   // A loaded cache needs no more steps, unless the caller sets a number.
@@ -152,19 +151,20 @@ void PreparedPicture::choose_options(const RenderOptions& chosen) {
   bvh_budget = checked_budget(scene, options_of_picture);
 }
 
-void PreparedPicture::build_world(const std::optional<WorldOptions>& before) {
+void PreparedPicture::build_world() {
   const WorldOptions wanted = world_options();
-  if (before == wanted) return;
+  if (world && built_ == wanted) return;
   LastingParts lasting;
-  if (before) {
+  if (world) {
     lasting.textures = world->lasting.textures;
-    if (before->environment == wanted.environment) lasting.environment = world->lasting.environment;
+    if (built_.environment == wanted.environment) lasting.environment = world->lasting.environment;
     // Which meshes ask for their coverage is built into the BVH.
-    if (before->acceleration == wanted.acceleration && before->glass_shadows == wanted.glass_shadows)
+    if (built_.acceleration == wanted.acceleration && built_.glass_shadows == wanted.glass_shadows)
       lasting.accel = world->lasting.accel;
     world.reset();
   }
   arena.execute([&] { world.emplace(scene, wanted, lasting); });
+  built_ = wanted;
 }
 
 void PreparedPicture::describe() {

@@ -69,8 +69,7 @@ struct PreparedPicture {
 
  private:
   void choose_options(const RenderOptions& chosen);
-  /// `before`: the options of the present world; none where there is no world yet.
-  void build_world(const std::optional<WorldOptions>& before);
+  void build_world();
   /// Fills in the statistics of the world.
   void describe();
   WorldOptions world_options() const;
@@ -79,6 +78,7 @@ struct PreparedPicture {
   void choose_integrator();
 
   Ranks& ranks_;
+  WorldOptions built_;      ///< of the present world
   std::uint32_t seed_ = 0;  ///< of the whole animation
 };
 

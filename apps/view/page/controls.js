@@ -105,10 +105,11 @@ function makeDisplayControls(scene) {
 
 const kLayers = [["", "picture"], ["albedo", "albedo"], ["normal", "normal"], ["depth", "depth"], ["instance", "objects"], ["cache-radiance", "bare cache"], ["error", "error"]];
 
-function makeLayerControls() {
+function makeLayerControls(scene) {
+  const layers = scene.layers ? scene.layers.map(name => [name, name || "picture"]) : kLayers;
   const parent = element("div", {className: "choices", role: "radiogroup"});
   document.getElementById("layer-controls").append(parent);
-  return kLayers.map(([key, name], i) => {
+  return layers.map(([key, name], i) => {
     const input = element("input", {type: "radio", name: "layer", value: key, checked: i === 0});
     input.addEventListener("change", () => picture.setLayer(key));
     parent.append(element("label", {}, input, ` ${name}`));
@@ -117,7 +118,7 @@ function makeLayerControls() {
 }
 
 function makeTimeControls(scene) {
-  if (!scene.animations.length) return {toggle() {}};
+  if (!scene.animations || !scene.animations.length) return {toggle() {}};
   document.getElementById("time-section").hidden = false;
   const parent = document.getElementById("time-controls");
   const end = Math.max(...scene.animations.map(a => a.seconds), 0.001);

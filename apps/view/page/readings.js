@@ -6,6 +6,7 @@ const short = x => x === null ? "-" : Math.abs(x) >= 1e4 || (x !== 0 && Math.abs
 
 function describeState(status, shown) {
   if (status.error) return `No picture: ${status.error}`;
+  if (status.complete && !shown?.spp) return "A finished picture";
   if (status.complete) return `Finished: ${shown ? shown.spp : "?"} samples a pixel, after ${shown ? shown.seconds.toFixed(1) : "?"} s`;
   if (status.waits) return "Waits for another tab";
   const what = {draft: "Draft", preview: "Preview", refined: "Preview with more samples", final: "Final picture"}[status.stage] || "Waits";

@@ -128,14 +128,18 @@ async function start() {
     }
   }
   document.getElementById("title").textContent = document.title = scene.file.split("/").pop();
-  makeCameraControls(scene);
-  const display = makeDisplayControls(scene), layers = makeLayerControls(), time = makeTimeControls(scene);
-  makeLightControls(scene);
-  makeSkyControls(scene);
+  const display = makeDisplayControls(scene), layers = makeLayerControls(scene), time = makeTimeControls(scene);
+  if (scene.layers) {
+    for (const id of ["camera-controls", "light-controls", "sky-controls"]) document.getElementById(id).parentElement.hidden = true;
+  } else {
+    makeCameraControls(scene);
+    makeLightControls(scene);
+    makeSkyControls(scene);
+    document.addEventListener("picture", event => followView(scene, event.detail));
+  }
   makeCompareControls();
   makeSaveControls();
   document.getElementById("help-button").addEventListener("click", () => document.getElementById("help").showModal());
-  document.addEventListener("picture", event => followView(scene, event.detail));
   addEventListener("resize", () => { if (!picture.kept.hidden) picture.setWipe(picture.share); });
   addEventListener("hashchange", () => location.reload());
   takePointer();

@@ -1,0 +1,96 @@
+#include "apps/view/picture_file.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "apps/terminal/errors.h"
+#include "renderer/image/auto_exposure.h"
+#include "renderer/image/image_read.h"
+
+namespace gatelight::apps {
+namespace {
+
+constexpr std::size_t kMostViewers = 64;
+
+/// The flags that change how a picture is shown.
+bool is_of_display(const std::string& name) {
+  return name == "exposure" || name == "tonemap" || name == "white-balance";
+}
+
+}  // namespace
+
+PictureFile::PictureFile(const std::string& file, std::vector<std::string> words)
+    : file_(file),
+      words_(std::move(words)),
+      picture_(renderer::read_image(file)),
+      first_(shown_with({}, 1)) {}
+
+std::shared_ptr<const ShownPicture> PictureFile::shown_with(const LiveFlags& flags,
+                                                            std::uint64_t revision) const {
+  auto shown = std::make_shared<ShownPicture>();
+  shown->settings = settings_of(file_, words_, flags);
+  shown->version = shown->revision = revision;
+  shown->stage = Stage::final;
+  shown->complete = true;
+  shown->picture = picture_;
+  shown->exposure = shown->settings.exposure.value_or(renderer::auto_exposure(picture_));
+  return shown;
+}
+
+PictureFile::Viewer& PictureFile::viewer(const std::string& name) {
+  if (!viewers_.contains(name) && viewers_.size() >= kMostViewers) viewers_.erase(viewers_.begin());
+  Viewer& of = viewers_[name];
+  if (!of.shown) of.shown = first_;
+  return of;
+}
+
+std::uint64_t PictureFile::change(const std::string& name, const FlagChange& flags, const std::string&) {
+  for (const auto& [flag, value] : flags) {
+    if (!is_of_display(flag))
+      throw UsageError("--" + one_line(flag) + ": a finished picture does not change by it");
+  }
+  const std::lock_guard lock(mutex_);
+  Viewer& of = viewer(name);
+  const LiveFlags wanted = changed(of.flags, flags);
+  of.shown = shown_with(wanted, of.shown->revision + 1);
+  of.flags = wanted;
+  news_.notify_all();
+  return of.shown->revision;
+}
+
+LiveFlags PictureFile::flags(const std::string& name) {
+  const std::lock_guard lock(mutex_);
+  return viewer(name).flags;
+}
+
+ViewerStatus PictureFile::status(const std::string& name) {
+  const std::lock_guard lock(mutex_);
+  const std::uint64_t revision = viewer(name).shown->revision;
+  return {.revision = revision, .version = revision, .complete = true};
+}
+
+std::shared_ptr<const ShownPicture> PictureFile::wait(const std::string& name, std::uint64_t version,
+                                                      std::chrono::milliseconds most) {
+  std::unique_lock lock(mutex_);
+  news_.wait_for(lock, most, [&] { return stopped_ || viewer(name).shown->version > version; });
+  const std::shared_ptr<const ShownPicture> shown = viewer(name).shown;
+  return shown->version > version ? shown : nullptr;
+}
+
+std::shared_ptr<const ShownPicture> PictureFile::last_whole(const std::string& name) {
+  const std::lock_guard lock(mutex_);
+  return viewer(name).shown;
+}
+
+std::string PictureFile::command(const std::string&) {
+  const auto found = picture_.metadata.find("command");
+  return found == picture_.metadata.end() ? "" : found->second;
+}
+
+void PictureFile::stop() {
+  const std::lock_guard lock(mutex_);
+  stopped_ = true;
+  news_.notify_all();
+}
+
+}  // namespace gatelight::apps
