@@ -13,7 +13,6 @@
 #include "base/random.h"
 #include "neural/model/model_file.h"
 #include "renderer/cache/cache_backend.h"
-#include "renderer/cache/scene_layout.h"
 
 namespace gatelight::python {
 namespace {
@@ -53,6 +52,30 @@ std::string digest_of_triangles(const scene::Scene& scene) {
   return hexadecimal(record.digest());
 }
 
+/// Meshes with one vertex for each position, and the surfaces with spans into them.
+struct Surfaces {
+  std::vector<std::vector<neural::Float3>> positions;
+  std::vector<std::vector<std::array<std::uint32_t, 3>>> triangles;
+  neural::SurfaceLayout layout;
+
+  explicit Surfaces(const scene::Scene& scene) {
+    for (const scene::Mesh& mesh : scene.meshes) {
+      std::vector<neural::Float3>& points = positions.emplace_back();
+      for (const Vec3& p : mesh.positions) points.push_back({p.x(), p.y(), p.z()});
+      const std::vector<std::uint32_t> welded = neural::weld_vertices(points);
+      auto& corners = triangles.emplace_back();
+      for (const auto& t : mesh.triangles) corners.push_back({welded[t[0]], welded[t[1]], welded[t[2]]});
+    }
+    for (std::size_t i = 0; i < positions.size(); ++i) layout.meshes.push_back({positions[i], triangles[i]});
+    for (const scene::Instance& instance : scene.instances) {
+      neural::SurfaceInstance& surface = layout.instances.emplace_back();
+      surface.mesh = static_cast<std::uint32_t>(instance.mesh);
+      const Eigen::Matrix<float, 3, 4> matrix = instance.transform.matrix().topRows<3>();
+      Eigen::Map<Eigen::Matrix<float, 3, 4>>(surface.object_to_world.data()) = matrix;
+    }
+  }
+};
+
 std::shared_ptr<const neural::Model> model_of(const scene::Scene& scene, std::uint32_t outputs,
                                               const renderer::CacheOptions& options) {
   neural::ModelConfig config;
@@ -76,9 +99,8 @@ std::shared_ptr<const neural::Model> model_of(const scene::Scene& scene, std::ui
   }
   config.auxiliary =
       neural::composite_inputs({.direction = false, .normal = options.normal_input.value_or(false)});
-  const renderer::WeldedMeshes meshes(scene);
-  const std::vector<neural::Sides> sides(scene.instances.size(), neural::Sides::front);
-  return neural::make_model(config, meshes.layout(scene, sides));
+  const Surfaces surfaces(scene);
+  return neural::make_model(config, surfaces.layout);
 }
 
 }  // namespace

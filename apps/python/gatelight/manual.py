@@ -1,5 +1,7 @@
 """The page of help(gatelight.render)."""
 
+import textwrap
+
 _HEAD = """Render a picture of a scene. Returns a Picture.
 
     picture = gatelight.render("room.glb", size=(960, 540), preset="standard")
@@ -31,6 +33,5 @@ def manual(options):
     lines = []
     for name, option in options.items():
         if option["common"] and name not in _NAMED:
-            text = option["help"].split(";")[0].split(":")[0].split(", ")[0]
-            lines.append(f"  {name:<17}{text[:100]}")
+            lines.append(f"  {name:<18}{textwrap.shorten(option['help'], 98, placeholder=' ...')}")
     return _HEAD + "\n".join(lines) + "\n"
