@@ -1,4 +1,5 @@
 #include "apps/view/view_api.h"
+#include "apps/view/view_session.h"
 
 #include <gtest/gtest.h>
 
