@@ -29,7 +29,8 @@ class Training {
   /// Trains up to `steps`, which do not count those of a loaded cache. The film gets the paths that are
   /// samples of the picture. Throws TrainingDiverged.
   void train(int steps, Film& film, const std::function<void()>& after_group = {});
-  /// Trains a kept cache by a few steps, and by more where its light has changed.
+  /// Trains a kept cache by a few steps, and by more where its light has changed. Where it begins anew, the
+  /// light of earlier frames is dropped from `memory`, too.
   void train_on(Film& film, FrameMemory& memory);
   /// After training diverged: returns to the last good state by training up to it again. So normal training
   /// costs nothing extra. False where there is no good state. Film and `earlier` are those of that state.
