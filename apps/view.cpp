@@ -24,10 +24,10 @@ namespace gatelight::apps {
 namespace {
 
 constexpr const char* kViewFooter =
-    R"(Opens a page in the browser on this machine that shows the scene and refines the picture while nothing changes, to the
+    R"(Opens a page in the browser on this machine. It shows the scene and refines the picture while nothing changes, to the
 very picture that `gatelight render` gives with the same flags (--preset final, if neither a preset nor an integrator is
-given). A finished picture is shown in the same page. Drag to turn the view; the keys are listed behind the page's "?". The page saves EXR and PNG, and copies the
-command of the picture. The server answers only this machine, and only under the address that is printed.
+given). A finished picture is shown in the same page. Drag to turn the view; "?" lists the keys. The page saves EXR and
+PNG, and copies the command of the picture. The server answers only this machine, and only under the printed address.
 
 Examples:
   gatelight view room.glb
@@ -56,6 +56,9 @@ std::vector<Option> window_options(WindowSettings& window) {
   std::erase_if(table, [](const Option& option) {
     return std::find(kWithout.begin(), kWithout.end(), option.name) != kWithout.end();
   });
+  for (Option& option : table) {
+    if (option.positional) option.help = "Scene (.gltf, .glb) or finished picture";
+  }
   OptionGroup group{table, "Window"};
   group.add(common(number("port", window.port, {0, 65535}, "N", "Port of this machine; 0: any free one")));
   group.add(common(toggle("no-browser", window.no_browser, "Print the address and open no browser")));

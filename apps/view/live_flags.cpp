@@ -123,7 +123,7 @@ RenderSettings settings_of(const std::string& scene, const std::vector<std::stri
 std::string render_command(const std::string& scene, const std::vector<std::string>& words,
                            const LiveFlags& flags) {
   std::string command = "gatelight render " + quoted(scene);
-  for (const std::string& word : words_of(words, flags)) command += " " + quoted(word);
+  for (const std::string& word : words_of(words, flags)) command += fmt::format(" {}", quoted(word));
   return command;
 }
 

@@ -10,6 +10,7 @@
 #include "base/errors.h"
 #include "renderer/image/image_write.h"
 #include "renderer/settings/enum_names.h"
+#include "renderer/settings/light_group_options.h"
 
 namespace gatelight::apps {
 namespace {
@@ -109,7 +110,8 @@ std::vector<std::uint8_t> layer_bytes(const renderer::Picture& picture, const st
   if (is(Aov::albedo)) return as_light(picture, *layer, {});
   if (is(Aov::normal)) return by_direction(*layer);
   if (is(Aov::instance_id)) return by_number(*layer);
-  if (is(Aov::cache_radiance) || is(Aov::raw)) return as_light(picture, *layer, display);
+  if (is(Aov::cache_radiance) || is(Aov::raw) || name.starts_with(renderer::kLightLayer))
+    return as_light(picture, *layer, display);
   return by_heat(*layer);
 }
 

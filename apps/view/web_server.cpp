@@ -95,13 +95,11 @@ WebServer::WebServer(int port, AnswerRequest answer) : implementation_(std::make
   };
   server.Get(".*", handle);
   server.Post(".*", handle);
-  if (port == 0) {
-    port = server.bind_to_any_port(kHost);
-  } else if (!server.bind_to_port(kHost, port)) {
-    port = -1;
-  }
-  if (port < 0) throw OutputError("--port: it cannot be listened on; 0 takes a free one");
-  implementation_->port = port;
+  const bool any = port == 0;
+  const int bound = any ? server.bind_to_any_port(kHost) : server.bind_to_port(kHost, port) ? port : -1;
+  if (bound < 0)
+    throw BadOption(fmt::format("--port: {} cannot be listened on, expected a free port; 0 takes any", port));
+  implementation_->port = port = bound;
   implementation_->address = fmt::format("http://{}:{}/{}/", kHost, port, implementation_->secret);
 }
 

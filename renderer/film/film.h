@@ -38,9 +38,6 @@ enum class Plane : std::uint8_t {
   alpha,   ///< 1 float
 };
 
-/// Prefix of the names of the layers of groups of lights.
-inline constexpr const char* kLightLayer = "light-";
-
 class Film {
  public:
   Film(PixelRect rect, int full_width, int full_height, FilmContents contents);

@@ -10,6 +10,7 @@
 #include "base/finite_float.h"
 #include "renderer/film/film.h"
 #include "renderer/settings/enum_names.h"
+#include "renderer/settings/light_group_options.h"
 
 namespace gatelight::renderer {
 namespace {

@@ -20,6 +20,8 @@ struct LightGroup {
 inline constexpr const char* kEnvironmentWord = "environment";
 /// The group of the lights that no group names.
 inline constexpr const char* kRestGroup = "rest";
+/// Prefix of the names of their layers.
+inline constexpr const char* kLightLayer = "light-";
 inline constexpr std::size_t kMostLightGroups = 16;
 
 /// The groups as a text: "NAME=LIGHT,LIGHT;NAME=LIGHT".

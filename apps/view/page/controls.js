@@ -106,7 +106,9 @@ function makeDisplayControls(scene) {
 const kLayers = [["", "picture"], ["albedo", "albedo"], ["normal", "normal"], ["depth", "depth"], ["instance", "objects"], ["cache-radiance", "bare cache"], ["error", "error"]];
 
 function makeLayerControls(scene) {
-  const layers = scene.layers ? scene.layers.map(name => [name, name || "picture"]) : kLayers;
+  const groups = flagOf(scene, "light-groups").split(";").map(text => text.split("=")[0].trim()).filter(Boolean);
+  const layers = scene.layers ? scene.layers.map(name => [name, name || "picture"])
+    : [...kLayers, ...groups.map(name => [`light-${name}`, `light: ${name}`])];
   const parent = element("div", {className: "choices", role: "radiogroup"});
   document.getElementById("layer-controls").append(parent);
   return layers.map(([key, name], i) => {

@@ -1,43 +1,76 @@
 "use strict";
 // Lights, the sky and the environment.
 
+const kMostLights = 60;
+
+/** Lights that a slider changes together: those of --light-groups, and names that differ in their numbers alone. */
+function groupsOfLights(scene, names) {
+  const groups = flagOf(scene, "light-groups").split(";").map(text => text.split("="))
+    .map(([name, lights]) => [name.trim(), (lights || "").split(",").map(light => light.trim())])
+    .map(([name, lights]) => [name, lights.filter(light => light && light !== "environment")]);
+  const alike = new Map();
+  for (const name of names) {
+    const stem = name.replace(/[\s._:-]*\d+$/, "");
+    alike.set(stem, (alike.get(stem) || 0) + 1);
+  }
+  for (const [stem, count] of alike) {
+    if (stem && count > 1) groups.push([`${stem}*`, [`${stem}*`]]);
+  }
+  return groups.filter(([, lights]) => lights.length > 0);
+}
+
 function makeLightControls(scene) {
   const parent = document.getElementById("light-controls");
-  const factors = new Map();
+  const of = {groups: new Map(), names: new Map()};
   for (const part of flagOf(scene, "lights").split(";")) {
-    const at = part.lastIndexOf("=");
-    if (at > 0) factors.set(part.slice(0, at), part.slice(at + 1));
+    const at = part.lastIndexOf("="), name = part.slice(0, at).trim();
+    if (at > 0) (name.endsWith("*") ? of.groups : of.names).set(name, part.slice(at + 1).trim());
   }
   const send = () => {
-    const text = [...factors].map(([name, factor]) => `${name}=${factor}`).join(";");
+    // The last entry that names a light counts, so that a light's own slider overrides its group's.
+    const text = [...of.groups, ...of.names].map(([name, factor]) => `${name}=${factor}`).join(";");
     changes.send({lights: text || null});
   };
-  const names = [...new Set([...scene.lights, ...scene.glowing])].filter(name => name && !name.includes(";") && !name.endsWith("*"));
-  for (const name of names.slice(0, 60)) {
-    const factor = factors.get(name), start = factor === "off" ? -8.1 : factor ? Math.log2(Number(factor)) || 0 : 0;
-    slider(parent, name, {min: -8.1, max: 8, step: 0.1, value: start, text: x => x < -8 ? "off" : `${signed(x)} EV`, changed: value => {
-      if (value === 0) factors.delete(name);
-      else factors.set(name, value < -8 ? "off" : String(Number((2 ** value).toPrecision(6))));
+  const stops = (into, label, lights, factors) => {
+    const factor = factors.get(lights[0]), start = factor === "off" ? -8.1 : factor ? Math.log2(Number(factor)) || 0 : 0;
+    slider(into, label, {min: -8.1, max: 8, step: 0.1, value: start, text: x => x < -8 ? "off" : `${signed(x)} EV`, changed: value => {
+      for (const light of lights) {
+        if (value === 0) factors.delete(light);
+        else factors.set(light, value < -8 ? "off" : String(Number((2 ** value).toPrecision(6))));
+      }
       send();
     }});
-  }
+  };
+  const names = [...new Set([...scene.lights, ...scene.glowing])].filter(name => name && !/[;=*]/.test(name));
+  const groups = groupsOfLights(scene, names);
+  for (const [label, lights] of groups) stops(parent, label, lights, of.groups);
+  const single = groups.length ? element("details", {}, element("summary", {textContent: "One by one"})) : parent;
+  if (single !== parent) parent.append(single);
+  for (const name of names.slice(0, kMostLights)) stops(single, name, [name], of.names);
+  if (names.length > kMostLights) single.append(element("p", {className: "note", textContent: `and ${names.length - kMostLights} more`}));
   if (!names.length) parent.append(element("p", {className: "note", textContent: "The file has no lights with names."}));
 }
 
 function makeSkyControls(scene) {
   const parent = document.getElementById("sky-controls");
-  const given = flagOf(scene, "sky") ? "sky" : flagOf(scene, "environment") === "none" ? "none" : "file";
+  const set = flagOf(scene, "sky");
+  const given = set ? (/date\s*=/.test(set) ? "date" : "sky") : flagOf(scene, "environment") === "none" ? "none" : "file";
   const sun = {azimuth: 135, elevation: 40, turbidity: 3, intensity: 1, date: "2026-06-21", time: "12:00", place: "48.1,11.6", zone: "+2"};
+  for (const [, key, value] of set.matchAll(/(\w+)\s*=\s*([^=]*?)\s*(?=,\s*\w+\s*=|$)/g)) {
+    if (key === "sun") [sun.azimuth, sun.elevation] = value.split(",").map(Number);
+    else sun[key] = typeof sun[key] === "number" ? Number(value) : value;
+  }
   let kind = given;
-  const send = () => {
-    const text = {
-      sky: () => `sun=${sun.azimuth},${sun.elevation},turbidity=${sun.turbidity},intensity=${sun.intensity}`,
-      date: () => `date=${sun.date},time=${sun.time},place=${sun.place},zone=${sun.zone},turbidity=${sun.turbidity},intensity=${sun.intensity}`,
-    }[kind];
-    changes.send({sky: text ? text() : null, environment: kind === "none" ? "none" : null});
+  const show = () => {
     position.hidden = kind !== "sky";
     moment.hidden = kind !== "date";
-    both.hidden = !text;
+    both.hidden = kind !== "sky" && kind !== "date";
+  };
+  const send = () => {
+    const said = {sky: [`sun=${sun.azimuth},${sun.elevation}`], date: ["date", "time", "place", "zone"].map(key => `${key}=${sun[key]}`)}[kind];
+    const common = ["turbidity", "intensity", "ground", "size"].filter(key => key in sun).map(key => `${key}=${sun[key]}`);
+    changes.send({sky: said ? [...said, ...common].join(",") : null, environment: kind === "none" ? "none" : null});
+    show();
   };
   chooser(parent, "Light around", [["file", "as given"], ["none", "none"], ["sky", "sky, by the sun"], ["date", "sky, by the date"]], kind, value => {
     kind = value;
@@ -62,6 +95,5 @@ function makeSkyControls(scene) {
   slider(parent, "Scaled", {min: -6, max: 6, step: 0.1, value: Math.log2(Number(flagOf(scene, "environment-scale", 1))), text: x => `${signed(x)} EV`, changed: value => {
     changes.send({"environment-scale": String(2 ** value)});
   }});
-  position.hidden = kind !== "sky";
-  moment.hidden = both.hidden = true;
+  show();
 }

@@ -3,18 +3,22 @@
 
 const picture = {
   canvas: document.getElementById("picture"), kept: document.getElementById("kept"), wipe: document.getElementById("wipe"),
-  shown: null, layer: "", version: 0, share: 0.5,
+  shown: null, layer: "", version: 0, share: 0.5, request: new AbortController(),
 
   /** Waits for pictures, one after the other. */
   async watch() {
+    document.addEventListener("visibilitychange", () => { if (document.hidden) this.request.abort(); });
     for (;;) {
+      await visible();
+      const {signal} = this.request = new AbortController();
       try {
-        const response = await ask("picture", {after: this.version, layer: this.layer});
+        const response = await ask("picture", {after: this.version, layer: this.layer}, {signal});
         showLost(null);
         if (response.status === 204) continue;
         const description = JSON.parse(response.headers.get("X-Picture"));
         this.show(await createImageBitmap(await response.blob()), description);
       } catch (error) {
+        if (signal.aborted) continue;
         showLost(error);
         this.version = 0;
         await pause(1000);
@@ -38,6 +42,7 @@ const picture = {
   setLayer(name) {
     this.layer = name;
     this.version = 0;
+    this.request.abort();
     changes.send({}, name || "none");
   },
 

@@ -22,6 +22,12 @@ async function ask(path, parameters = {}, options = {}) {
   return response;
 }
 
+/** Hidden pages wait: a browser has six connections for all pages of a program. */
+const visible = () => new Promise(done => {
+  if (document.hidden) document.addEventListener("visibilitychange", done, {once: true});
+  else done();
+});
+
 const pause = milliseconds => new Promise(done => setTimeout(done, milliseconds));
 
 function showLost(error) {
