@@ -34,13 +34,16 @@ constexpr Choice<ProgressMode> kProgressModes[] = {{"auto", ProgressMode::automa
                                                    {"none", ProgressMode::none}};
 
 /// Options of the call, which do not change its results.
-void add_call_options(OptionGroup& group, std::string& stats, ProgressMode& progress, bool& reproducible,
-                      bool& quiet, bool& verbose) {
+void add_call_options(OptionGroup& group, std::string& stats, std::string& live, ProgressMode& progress,
+                      bool& reproducible, bool& quiet, bool& verbose) {
   const auto add = [&](Option option) { group.add(in_recipe(std::move(option), InRecipe::never)); };
   add(not_in_sweep(toggle(
       "reproducible", reproducible,
       "Leave times, threads and the command line out of the EXR header: equal renders give equal files")));
   add(common(not_in_sweep(any_word("stats", stats, "FILE|-", "Statistics as JSON; - is stdout"))));
+  add(not_in_sweep(any_word("live", live, "HOST:PORT",
+                            "Show the picture while it is made in the image viewer tev, which listens at "
+                            "127.0.0.1:14158")));
   add(progress_option(progress));
   add(common(not_in_sweep(toggle("quiet", quiet, "Print errors only"))));
   add(not_in_sweep(
@@ -225,12 +228,12 @@ Option positional(const char* name, std::string& member, const char* help) {
 std::vector<Option> option_table(RenderSettings& settings) {
   // --config belongs to all subcommands.
   auto& [scene, outputs, render, load, frames, image, exposure, eye, target, up, view_file, config, stats,
-         progress, reproducible, quiet, verbose, preset, given] = settings;
+         live, progress, reproducible, quiet, verbose, preset, given] = settings;
   std::vector<Option> table;
   table.push_back(positional("SCENE", scene, "Scene, .gltf or .glb"));
   OptionGroup output{table, "Output"};
   add_picture_files(output, outputs, image, exposure);
-  add_call_options(output, stats, progress, reproducible, quiet, verbose);
+  add_call_options(output, stats, live, progress, reproducible, quiet, verbose);
   OptionGroup view{table, "Scene and view"};
   for (Option& option : picture_options(render)) {
     const std::string name = option.name;

@@ -32,6 +32,7 @@ struct RenderSettings {
   std::string view_file;  ///< file of --view-file, empty for none
   std::string config;     ///< file of --config, empty for none
   std::string stats;      ///< file, "-" for stdout, empty for none
+  std::string live;       ///< HOST:PORT of a viewer that shows the picture, empty for none
   ProgressMode progress = ProgressMode::automatic;
   bool reproducible = false;
   bool quiet = false;

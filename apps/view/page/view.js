@@ -132,10 +132,10 @@ async function start() {
   if (scene.layers) {
     for (const id of ["camera-controls", "light-controls", "sky-controls"]) document.getElementById(id).parentElement.hidden = true;
   } else {
+    document.addEventListener("picture", event => followView(scene, event.detail));
     makeCameraControls(scene);
     makeLightControls(scene);
     makeSkyControls(scene);
-    document.addEventListener("picture", event => followView(scene, event.detail));
   }
   makeCompareControls();
   makeSaveControls();
