@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <span>
+#include <string_view>
 #include <utility>
 
 #include "apps/python/keywords.h"
-#include "apps/settings/option_table.h"
 #include "base/file/digest.h"
 #include "base/random.h"
 #include "neural/model/model_file.h"
@@ -23,15 +23,46 @@ namespace py = pybind11;
 constexpr std::uint64_t kChosenBytes = std::uint64_t{4} << 20;
 constexpr const char* kKind = "gatelight field 1";
 
-/// Throws BadOption for options that are not of a cache.
+/// Options of caches that have a meaning without light transport.
+constexpr std::string_view kOptions[] = {"encoding",
+                                         "features",
+                                         "stack",
+                                         "resolution",
+                                         "resolution-scale",
+                                         "node-spacing",
+                                         "max-resolution",
+                                         "cluster",
+                                         "storage",
+                                         "hash-levels",
+                                         "hash-features",
+                                         "hash-log2-size",
+                                         "hash-base",
+                                         "hash-growth",
+                                         "cache-memory",
+                                         "feature-precision",
+                                         "hidden",
+                                         "layers",
+                                         "bias",
+                                         "normal-input",
+                                         "batch",
+                                         "learning-rate",
+                                         "learning-decay",
+                                         "loss",
+                                         "update",
+                                         "feature-step",
+                                         "average",
+                                         "query-precision",
+                                         "device",
+                                         "isa",
+                                         "seed"};
+
+/// Throws BadOption for options that a field does not use.
 apps::RenderSettings read_cache_keywords(const py::dict& keywords) {
   apps::RenderSettings settings = read_keywords(keywords);
-  apps::RenderSettings table_settings;
-  for (const apps::Option& option : apps::option_table(table_settings)) {
-    const std::string flag = option.flag();
-    if (!settings.given.contains(flag) || option.of_cache || flag == "--isa" || flag == "--seed") continue;
+  for (const std::string& flag : settings.given) {
+    if (std::find(std::begin(kOptions), std::end(kOptions), flag.substr(2)) != std::end(kOptions)) continue;
     throw BadOption(
-        fmt::format("{}: it is no option of a cache, expected one of the groups 'Cache, ...'", flag));
+        fmt::format("{}: a field does not use it, expected one of features, network or training", flag));
   }
   if (!settings.given.contains("--loss")) settings.render.cache.training.loss = neural::Loss::l2;
   settings.render.cache.training.seed += settings.render.seed;

@@ -1,5 +1,7 @@
 #include "apps/python/frames.h"
 
+#include <fmt/format.h>
+
 #include <utility>
 
 #include "apps/frame_settings.h"
@@ -20,6 +22,10 @@ Frames::Frames(ScenePointer scene, const py::dict& keywords, py::object progress
       whole_(settings_for(*scene_, keywords)),
       progress_(std::move(progress)),
       stop_(std::move(stop)) {
+  for (const char* flag : {"--checkpoint", "--resume", "--cache-in", "--cache-out"}) {
+    if (whole_.given.contains(flag))
+      throw BadOption(fmt::format("{}: frames have none here, expected it in `gatelight render`", flag));
+  }
   if (!whole_.frames.range) throw BadOption("--frames is missing, expected frames or turntable");
   if (scene_->file && !scene_->loading.load.time && whole_.frames.turntable == 0)
     throw BadOption("--frames: the scene was loaded without a time, expected gatelight.load(path, time=0)");

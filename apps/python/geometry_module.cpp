@@ -57,6 +57,27 @@ void expect_finite(const scene::Mesh& mesh) {
   if (!wrong.empty()) fail("positions", wrong);
 }
 
+/// (n, 3) or (n, 4); three are opaque.
+void read_colors(py::handle values, std::size_t count, std::vector<Vec4>& colors) {
+  if (values.is_none()) return;
+  const py::array given = py::array::ensure(values);
+  PyErr_Clear();
+  if (given && given.ndim() == 2 && given.shape(1) == 4) {
+    read_rows("colors", values, count, colors);
+  } else {
+    std::vector<Vec3> opaque;
+    read_rows("colors", values, count, opaque);
+    colors.clear();
+    for (const Vec3& c : opaque) colors.emplace_back(c.x(), c.y(), c.z(), 1.0f);
+  }
+  for (std::size_t i = 0; i < colors.size(); ++i) {
+    const Vec4& c = colors[i];
+    if (c.allFinite() && c.minCoeff() >= 0.0f) continue;
+    fail("colors", fmt::format("row {} is ({}, {}, {}, {}), expected finite numbers, not negative", i, c.x(),
+                               c.y(), c.z(), c.w()));
+  }
+}
+
 int material_index(const ScenePointer& scene, py::handle material) {
   if (material.is_none()) return -1;
   if (!py::isinstance<MaterialPart>(material) || material.cast<MaterialPart>().scene != scene)
@@ -114,6 +135,22 @@ void add_mesh_class(py::module_& module) {
       "uvs", [](const MeshPart& part) { return view_of(part, get(part).uv0, 2); },
       [](const MeshPart& part, const py::object& given) { replace(part, "uvs", get(part).uv0, given); },
       "(n, 2) float32, or None");
+  mesh.def_property(
+      "colors", [](const MeshPart& part) { return view_of(part, get(part).colors, 4); },
+      [](const MeshPart& part, const py::object& given) {
+        std::vector<Vec4> colors;
+        read_colors(given, get(part).positions.size(), colors);
+        std::vector<Vec4>& own = get(part).colors;
+        if (own.size() == colors.size()) {
+          std::copy(colors.begin(), colors.end(), own.begin());  // views of them stay valid
+        } else if (own.empty()) {
+          own = std::move(colors);
+        } else {
+          fail("colors", "None would leave views without their memory, expected an array");
+        }
+        part.scene->change();
+      },
+      "(n, 4) float32, linear, that multiply the base colour, or None; (n, 3) are opaque");
   mesh.def_property_readonly(
       "triangles", [](const MeshPart& part) { return view_of(part, get(part).triangles, 3); },
       "(m, 3) uint32");
@@ -155,7 +192,7 @@ void add_instance_class(py::module_& module) {
 }  // namespace
 
 MeshPart make_mesh(const ScenePointer& scene, py::handle positions, py::handle triangles, py::handle normals,
-                   py::handle uvs, py::handle material, const std::string& name) {
+                   py::handle uvs, py::handle material, const std::string& name, py::handle colors) {
   scene::Mesh mesh;
   mesh.name = name;
   const auto vertices = static_cast<std::size_t>(rows<float>("positions", positions, 3).shape(0));
@@ -170,6 +207,7 @@ MeshPart make_mesh(const ScenePointer& scene, py::handle positions, py::handle t
   if (!wrong.empty()) fail("triangles", wrong);
   read_rows("normals", normals, vertices, mesh.normals);
   read_rows("uvs", uvs, vertices, mesh.uv0);
+  read_colors(colors, vertices, mesh.colors);
   mesh.material = material_index(scene, material);
   scene->own_meshes.resize(scene->source.meshes.size(), 0);
   scene->source.meshes.push_back(std::move(mesh));

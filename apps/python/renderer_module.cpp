@@ -23,8 +23,11 @@ void add_renderer(py::module_& module) {
   renderer.def(
       "set_camera", [](Running& running, const py::kwargs& view) { running.set_camera(view); },
       "Another view for the next pictures: camera, eye, target, up, fov, lens, projection, view_height, "
-      "aperture, focus, "
-      "blades, view_file. Nothing is built again.");
+      "aperture, focus, blades, view_file. Nothing is built again.");
+  renderer.def(
+      "set_options", [](Running& running, const py::kwargs& options) { running.set_options(options); },
+      "Other options for the next pictures; those that are not named stay. None sets the default. Only what "
+      "depends on the difference is built again.");
   renderer.def("stop", &Running::stop, "Ends the render that is under way in another thread.");
   renderer.def_property_readonly("scene", &Running::scene);
 

@@ -50,10 +50,18 @@ void replace_view(py::dict& keywords, const py::dict& view) {
   for (const auto& [name, value] : view) keywords[name] = value;
 }
 
+/// Options that belong to the program.
+constexpr const char* kOfProgram[] = {"--live", "--preview-video", "--frame-groups"};
+
 }  // namespace
 
 apps::RenderSettings settings_for(const SceneData& scene, const py::dict& keywords) {
   apps::RenderSettings settings = read_keywords(keywords);
+  for (const char* flag : kOfProgram) {
+    if (settings.given.contains(flag))
+      throw BadOption(
+          fmt::format("{}: the module has no such option, expected it in `gatelight render`", flag));
+  }
   for (const std::string& flag : settings.given) {
     if (load_options().contains(flag))
       throw BadOption(fmt::format("{}: it belongs to loading, expected it in gatelight.load", flag));
@@ -128,7 +136,12 @@ PicturePointer Running::render(const py::object& progress, const py::object& sto
   waiting.run([&] {
     if (settings_.render.denoise.denoiser == renderer::DenoiserKind::oidn)
       renderer::load_oidn(settings_.render.denoise.library);
-    if (changed) build(std::move(unfinished));
+    if (changed) {
+      build(std::move(unfinished));
+    } else if (has_new_options_) {
+      renderer_->set_options(settings_.render);
+    }
+    has_new_options_ = false;
     apps::RenderSettings settings = settings_;
     if (settings.render.choose_integrator) renderer::use_integrator(settings.render, renderer_->integrator());
     for (const std::string& warning : built_->warnings) report.warnings.push_back(apps::with_flags(warning));
@@ -153,9 +166,22 @@ void Running::set_camera(const py::dict& keywords) {
   }
   py::dict merged = keywords_.attr("copy")();
   replace_view(merged, keywords);
-  apps::RenderSettings settings = settings_for(*scene_, merged);
-  if (renderer_) renderer_->set_camera(settings.render.camera);
-  keywords_ = merged;
+  const apps::RenderSettings settings = settings_for(*scene_, merged);
+  if (renderer_ && !has_new_options_) renderer_->set_camera(settings.render.camera);
+  take(merged, settings);
+}
+
+void Running::set_options(const py::dict& keywords) {
+  const Busy busy(busy_);
+  py::dict merged = keywords_.attr("copy")();
+  replace_view(merged, keywords);
+  const apps::RenderSettings settings = settings_for(*scene_, merged);
+  take(merged, settings);
+  has_new_options_ = true;
+}
+
+void Running::take(const py::dict& keywords, const apps::RenderSettings& settings) {
+  keywords_ = keywords;
   settings_ = settings;
 }
 

@@ -27,11 +27,13 @@ class Running {
 
   PicturePointer render(const pybind11::object& progress, const pybind11::object& stop);
   void set_camera(const pybind11::dict& keywords);
+  void set_options(const pybind11::dict& keywords);
   /// Another thread may call it: the picture so far ends the render that is under way.
   void stop() { stop_ = true; }
   const ScenePointer& scene() const { return scene_; }
 
  private:
+  void take(const pybind11::dict& keywords, const apps::RenderSettings& settings);
   void build(Unfinished unfinished);
 
   ScenePointer scene_;
@@ -40,6 +42,7 @@ class Running {
   std::shared_ptr<const scene::Scene> built_;  ///< outlives renderer_
   std::unique_ptr<renderer::Renderer> renderer_;
   std::uint64_t revision_ = 0;
+  bool has_new_options_ = false;  ///< renderer_ does not know them yet
   std::atomic<bool> stop_ = false;
   std::atomic<bool> busy_ = false;
 };

@@ -101,10 +101,10 @@ void add_scene(py::module_& module) {
             "or clamp.");
   scene.def("add_mesh", make_mesh, py::arg("positions"), py::arg("triangles"),
             py::arg("normals") = py::none(), py::arg("uvs") = py::none(), py::arg("material") = py::none(),
-            py::arg("name") = "",
+            py::arg("name") = "", py::arg("colors") = py::none(),
             "Adds a mesh: positions (n, 3) in metres, triangles (m, 3) of indices, counter-clockwise from "
-            "the front, "
-            "normals (n, 3) or None for flat ones, uvs (n, 2).");
+            "the front, normals (n, 3) or None for flat ones, uvs (n, 2), colors (n, 3) or (n, 4), linear, "
+            "that multiply the material's base colour.");
   scene.def("add_instance", make_instance, py::arg("mesh"), py::arg("transform") = py::none(),
             py::arg("name") = "",
             "Places a mesh in the world: transform (4, 4) for column vectors, None: identity.");

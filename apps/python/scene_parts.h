@@ -24,7 +24,7 @@ void add_views(pybind11::module_& module);
 
 MeshPart make_mesh(const ScenePointer& scene, pybind11::handle positions, pybind11::handle triangles,
                    pybind11::handle normals, pybind11::handle uvs, pybind11::handle material,
-                   const std::string& name);
+                   const std::string& name, pybind11::handle colors);
 InstancePart make_instance(const ScenePointer& scene, pybind11::handle mesh, pybind11::handle transform,
                            const std::string& name);
 TexturePart make_texture(const ScenePointer& scene, pybind11::handle image, const std::string& wrap,

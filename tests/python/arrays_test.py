@@ -39,6 +39,24 @@ class Arrays(unittest.TestCase):
         with self.assertRaises(ValueError):
             before[0] = 1
 
+    def test_colors_multiply_the_base_color(self):
+        pictures = []
+        for color, base in (((0.5, 0.25, 1.0), (1, 1, 1)), (None, (0.5, 0.25, 1.0))):
+            scene = gatelight.Scene()
+            colors = None if color is None else numpy.tile(numpy.array(color, numpy.float32), (4, 1))
+            scene.add_instance(square(scene, scene.add_material(base_color=base, metallic=0, roughness=1), colors=colors))
+            pictures.append(numpy.asarray(gatelight.render(scene, eye=(0, 2, 3), target=(0, 0, 0), environment=(1, 1, 1), **SMALL)))
+            self.assertGreater(pictures[-1].sum(), 0)
+        numpy.testing.assert_allclose(pictures[0], pictures[1], rtol=1e-5)
+        mesh = square(gatelight.Scene(), colors=numpy.ones((4, 4), numpy.float32))
+        view = mesh.colors
+        mesh.colors = numpy.full((4, 3), 0.5)
+        self.assertEqual(view.tolist(), [[0.5, 0.5, 0.5, 1]] * 4)
+        for wrong in (-numpy.ones((4, 3)), numpy.ones((3, 3)), numpy.ones((4, 2)), None):
+            with self.assertRaises(gatelight.Error) as caught:
+                mesh.colors = wrong
+            self.assertEqual(caught.exception.option, "colors")
+
     def test_wrong_arrays(self):
         scene = gatelight.Scene()
         corners, triangle = numpy.eye(3, dtype=numpy.float32), [[0, 1, 2]]

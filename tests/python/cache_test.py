@@ -41,6 +41,9 @@ class Fields(unittest.TestCase):
         points = gatelight.sample_points(mesh, 4000, seed=3)
         self.assertLess(abs(points.positions[:, 0].mean()), 0.05)
         self.assertTrue((points.positions == gatelight.sample_points(mesh, 4000, seed=3).positions).all())
+        with self.assertRaises(gatelight.Error) as caught:
+            gatelight.Cache(mesh, direction_input=True)
+        self.assertEqual(caught.exception.option, "direction_input")
         field = gatelight.Cache(mesh, outputs=1)
         points.triangles[5] = 9
         with self.assertRaisesRegex(gatelight.Error, "index 9 of point 5"):

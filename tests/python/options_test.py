@@ -51,6 +51,29 @@ class Options(unittest.TestCase):
             self.assertEqual(ours.read_bytes(), theirs.read_bytes())
             self.assertEqual(gatelight.read(ours).metadata["spp"], "4")
 
+    def test_other_options_give_the_bits_of_a_new_renderer(self):
+        scene = lit_square()
+        renderer = gatelight.Renderer(scene, **SMALL)
+        renderer.render()
+        options = dict(SMALL)
+        for change in (dict(spp=2), dict(size=(16, 16), environment=(1, 1, 1)), dict(eye=(0, 3, 1), target=(0, 0, 0)), dict(eye=None, target=None),
+                       dict(integrator="nrc", train_steps=8), dict(environment=None)):
+            renderer.set_options(**change)
+            options.update(change)
+            fresh = gatelight.Renderer(scene, **options).render()
+            self.assertTrue((numpy.asarray(renderer.render()) == numpy.asarray(fresh)).all(), str(change))
+        with self.assertRaises(gatelight.Error):
+            renderer.set_options(spp=-1)
+        renderer.render()
+
+    def test_options_of_the_program_are_refused(self):
+        for options in (dict(live="localhost"), dict(preview_video="a.mp4")):
+            with self.assertRaises(gatelight.Error) as caught:
+                gatelight.render(lit_square(), **SMALL, **options)
+            self.assertEqual(caught.exception.option, next(iter(options)))
+        with self.assertRaises(gatelight.Error):
+            gatelight.frames(DATA / "turntable.glb", frames="0:1", checkpoint="a.safetensors")
+
     def test_frames(self):
         pictures = list(gatelight.frames(DATA / "turntable.glb", size=(32, 18), preset=None, spp=1, frames=range(2)))
         self.assertEqual(len(pictures), 2)

@@ -118,7 +118,7 @@ TEST_F(Server, ListensOnTheLoopbackOnly) {
 }
 
 TEST_F(Server, RefusesAPortThatIsTaken) {
-  EXPECT_THROW(WebServer(server_.port(), [](const WebRequest&) { return WebResponse{}; }), OutputError);
+  EXPECT_THROW(WebServer(server_.port(), [](const WebRequest&) { return WebResponse{}; }), BadOption);
 }
 
 TEST_F(Server, RefusesLargeBodies) {
