@@ -43,7 +43,7 @@ def stage():
     scene = gatelight.Scene()
     floor = scene.add_material(name="floor", base_color=(0.6, 0.6, 0.6), metallic=0, roughness=0.9)
     clay = scene.add_material(name="clay", base_color=(0.7, 0.3, 0.2), metallic=0, roughness=0.5)
-    corners = numpy.array([[-4, 0, -4], [4, 0, -4], [4, 0, 4], [-4, 0, 4]], numpy.float32)
+    corners = 30 * numpy.array([[-1, 0, -1], [1, 0, -1], [1, 0, 1], [-1, 0, 1]], numpy.float32)
     ground = scene.add_mesh(corners, numpy.array([[0, 2, 1], [0, 3, 2]], numpy.uint32), material=floor, name="floor")
     positions, normals, triangles = sphere()
     ball = scene.add_mesh(positions, triangles, normals=normals, material=clay, name="ball")
@@ -55,5 +55,5 @@ def stage():
         ("key", (2, 3, 2), (1, 0.9, 0.8)), ("fill", (-3, 2, 1), (0.6, 0.8, 1)), ("rim", (0, 3, -3), (1, 1, 1))
     ):
         scene.add_light("point", name=name, position=position, intensity=tuple(8 * c for c in color))
-    scene.add_camera(name="front", eye=(0, 1.4, 3.2), target=(0, 0.4, 0), fov=40)
+    scene.add_camera(name="front", eye=(0, 2.3, 3.4), target=(0, 0.45, 0), fov=36)
     return scene

@@ -27,6 +27,7 @@ for encoding in ("gate", "hashgrid"):
     print(f"{encoding}: error {error:.4f} after {steps} steps, {field.bytes} bytes")
 left.set(xlabel="step", ylabel="loss")
 left.legend()
-right.scatter(test.positions[:, 0], test.positions[:, 1], c=field.query(test)[:, 0], s=2)
-right.set(aspect="equal", title="the first output")
+front = points.positions[:, 2] > 0
+right.scatter(points.positions[front, 0], points.positions[front, 1], c=field.query(points)[front, 0], s=3)
+right.set(aspect="equal", title="the first output, from +z")
 figure.savefig(chosen.folder / "field_on_mesh.png")
