@@ -21,6 +21,7 @@ void config_file(Bytes bytes);
 void command_line(Bytes bytes);
 void sweep_records(Bytes bytes);
 void ies_profile(Bytes bytes);
+void view_request(Bytes bytes);
 void render(Bytes bytes);
 
 struct Target {
@@ -42,6 +43,7 @@ inline constexpr Target kTargets[] = {
     {"command_line", command_line},
     {"sweep_records", sweep_records},
     {"ies_profile", ies_profile},
+    {"view_request", view_request},
     {"render", render},
 };
 
