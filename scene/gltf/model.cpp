@@ -58,17 +58,21 @@ class Reader {
   }
 
   void set_callbacks(tinygltf::TinyGLTF& reader) {
-    const auto exists = [](const std::string&, void*) { return true; };
-    const auto expand = [](const std::string& path, void*) { return path; };
-    const auto whole = [](std::vector<unsigned char>* out, std::string*, const std::string& path,
-                          void* self) {
-      std::size_t index = 0;
-      std::from_chars(path.data(), path.data() + path.size(), index);
-      *out = std::move(static_cast<Reader*>(self)->buffers_[index]);
+    tinygltf::FsCallbacks files{};
+    files.FileExists = [](const std::string&, void*) { return true; };
+    files.ExpandFilePath = [](const std::string& path, void*) { return path; };
+    files.ReadWholeFile = [](std::vector<unsigned char>* out, std::string*, const std::string& path,
+                             void* self) {
+      *out = std::move(buffer_of(path, self));
       if (out->empty()) out->resize(1);
       return true;
     };
-    reader.SetFsCallbacks({exists, expand, whole, nullptr, this});
+    files.WriteWholeFile = [](std::string*, const std::string&, const std::vector<unsigned char>&, void*) {
+      return false;
+    };
+    tell_sizes(files);
+    files.user_data = this;
+    reader.SetFsCallbacks(files);
   }
 
   void complete(tinygltf::Model& model) {
@@ -93,6 +97,23 @@ class Reader {
     std::string uri;
     int view;
   };
+
+  static std::vector<std::uint8_t>& buffer_of(const std::string& path, void* self) {
+    std::size_t index = 0;
+    std::from_chars(path.data(), path.data() + path.size(), index);
+    return static_cast<Reader*>(self)->buffers_[index];
+  }
+
+  /// tinygltf asks for sizes since version 2.9.
+  template <typename Callbacks>
+  static void tell_sizes(Callbacks& files) {
+    if constexpr (requires { files.GetFileSizeInBytes; }) {
+      files.GetFileSizeInBytes = [](std::size_t* size, std::string*, const std::string& path, void* self) {
+        *size = std::max<std::size_t>(buffer_of(path, self).size(), 1);
+        return true;
+      };
+    }
+  }
 
   static std::string take_text(json& object, const char* name) {
     return std::move(object[name].get_ref<std::string&>());
