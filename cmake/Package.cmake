@@ -23,7 +23,7 @@ install(EXPORT gatelight FILE gatelightTargets.cmake NAMESPACE gatelight:: DESTI
 configure_package_config_file(
   ${CMAKE_CURRENT_LIST_DIR}/gatelightConfig.cmake.in ${PROJECT_BINARY_DIR}/gatelightConfig.cmake
   INSTALL_DESTINATION ${GATELIGHT_PACKAGE_DIR} NO_SET_AND_CHECK_MACRO)
-write_basic_package_version_file(${PROJECT_BINARY_DIR}/gatelightConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/gatelightConfigVersion.cmake COMPATIBILITY SameMajorVersion)
 install(FILES
   ${PROJECT_BINARY_DIR}/gatelightConfig.cmake
   ${PROJECT_BINARY_DIR}/gatelightConfigVersion.cmake
