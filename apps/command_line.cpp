@@ -12,6 +12,7 @@
 
 #include "apps/settings/config_file.h"
 #include "apps/settings/help_format.h"
+#include "apps/settings/other_tools.h"
 #include "apps/subcommand.h"
 #include "apps/terminal/errors.h"
 #include "apps/terminal/log.h"
@@ -64,12 +65,26 @@ std::string describe_unknown_flag(const CLI::App& root) {
   for (const std::string& word : root.remaining(true)) {
     if (!word.starts_with('-')) continue;
     const std::string name = word.substr(0, word.find('='));
+    if (const std::string ours = flag_of_other_tools(name); !ours.empty())
+      return fmt::format("unknown flag '{}'; here it is '{}'", cut(word), ours);
     // The dashes are left out of the comparison: they always match.
     const std::string meant = name.starts_with("--") ? nearest_word(name.substr(2), flag_names(root)) : "";
     return fmt::format("unknown flag '{}'{}", cut(word),
                        meant.empty() ? "" : fmt::format("; did you mean '--{}'?", meant));
   }
   return "";
+}
+
+/// What the user may have meant by a word that is no subcommand.
+std::string meant_subcommand(const std::string& word, const std::vector<std::string>& names) {
+  const bool scene = word.ends_with(".glb") || word.ends_with(".gltf");
+  if (scene)
+    return fmt::format("; 'gatelight render {0} -o picture.png' renders it, 'gatelight view {0}' shows it",
+                       cut(word));
+  if (word == "help" || word == "version") return fmt::format("; did you mean '--{}'?", word);
+  if (const std::string ours = flag_of_other_tools(word); !ours.empty())
+    return fmt::format("; here it is '{}'", ours);
+  return did_you_mean(word, names);
 }
 
 std::string describe_subcommand(const CLI::App& root) {
@@ -80,7 +95,7 @@ std::string describe_subcommand(const CLI::App& root) {
   const std::string got =
       rest.empty() ? "a subcommand is missing" : fmt::format("'{}' is no subcommand", cut(rest.front()));
   return fmt::format("{}, expected {} or {}{}", got, fmt::join(names.begin(), names.end() - 1, ", "),
-                     names.back(), rest.empty() ? "" : did_you_mean(rest.front(), names));
+                     names.back(), rest.empty() ? "" : meant_subcommand(rest.front(), names));
 }
 
 /// Describes a parse error. Replaces those of CLI11's messages that are too vague.
@@ -93,6 +108,10 @@ std::string describe(const CLI::App& root, const CLI::ParseError& error, const C
     // A misspelt flag is often one that is missing then.
     const std::string unknown = describe_unknown_flag(root);
     if (!unknown.empty()) text = required ? fmt::format("{}; {}", text, unknown) : unknown;
+    const std::vector<std::string> rest = root.remaining(true);
+    if (required && unknown.empty() && !rest.empty() && text.starts_with("--output"))
+      text = fmt::format("{}; '{}' belongs to no flag, did you mean '-o {}'?", text, cut(rest.front()),
+                         cut(rest.front()));
   }
   if (dynamic_cast<const CLI::ConfigError*>(&error) != nullptr && called != nullptr) {
     const std::string file = config.name.empty() ? "--config" : fmt::format("'{}'", config.name);

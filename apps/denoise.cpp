@@ -136,7 +136,8 @@ class DenoiseRun {
   int run() {
     check();
     install_signal_handlers();
-    const renderer::OidnLibrary& oidn = renderer::load_oidn(oidn_place(settings_.render.denoise.library));
+    const std::string place = oidn_place(settings_.render.denoise.library);
+    const renderer::OidnLibrary& oidn = renderer::load_oidn(place);
     const int threads = settings_.render.threads > 0 ? settings_.render.threads : available_threads();
     require_threads(threads);
     const tbb::global_control control(tbb::global_control::max_allowed_parallelism,

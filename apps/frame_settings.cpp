@@ -34,10 +34,9 @@ RenderSettings settings_of_frame(const RenderSettings& whole, int frame) {
 std::vector<int> scouted_frames(const std::vector<int>& frames) {
   constexpr std::size_t kScouted = 8;
   const std::size_t moments = std::min(frames.size(), kScouted);
-  if (moments < 2) return frames;
+  const std::size_t steps = std::max<std::size_t>(moments, 2) - 1;
   std::vector<int> scouted;
-  for (std::size_t k = 0; k < moments; ++k)
-    scouted.push_back(frames[k * (frames.size() - 1) / (moments - 1)]);
+  for (std::size_t k = 0; k < moments; ++k) scouted.push_back(frames[k * (frames.size() - 1) / steps]);
   return scouted;
 }
 

@@ -107,6 +107,11 @@ void read_resolution(const std::string& text, neural::GateOptions& gate) {
     gate.rule = neural::ResolutionRule::fixed;
   } else if (text == "uniform" || text == "paper") {
     gate.rule = parse_choice(flag, text, kEnumNames<neural::ResolutionRule>);
+  } else if (!text.empty() && text.find_first_not_of("0123456789x") == std::string::npos) {
+    throw BadOption(
+        fmt::format("{}: '{}' is no resolution of a cache, expected uniform, paper or fixed:R; the size of "
+                    "the picture is '--size WxH'",
+                    flag, text));
   } else {
     refuse_choice(flag, text, "uniform|paper|fixed:R");
   }

@@ -22,7 +22,8 @@ std::string oidn_place(const std::string& flag) {
 
 std::string denoiser_text() {
   try {
-    const renderer::OidnLibrary& oidn = renderer::load_oidn(oidn_place());
+    const std::string place = oidn_place();
+    const renderer::OidnLibrary& oidn = renderer::load_oidn(place);
     return fmt::format("Open Image Denoise {}, {}", oidn.version, oidn.path);
   } catch (const MissingDenoiser& error) {
     return fmt::format("none: {}", error.what());

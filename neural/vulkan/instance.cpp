@@ -24,11 +24,13 @@ VKAPI_ATTR VkBool32 VKAPI_CALL take_message(VkDebugUtilsMessageSeverityFlagBitsE
 vk::DebugUtilsMessengerCreateInfoEXT messenger_info(std::vector<std::string>* messages) {
   using Severity = vk::DebugUtilsMessageSeverityFlagBitsEXT;
   using Type = vk::DebugUtilsMessageTypeFlagBitsEXT;
-  return {{},
-          Severity::eWarning | Severity::eError,
-          Type::eValidation | Type::ePerformance,
-          take_message,
-          messages};
+  vk::DebugUtilsMessengerCreateInfoEXT info;
+  info.messageSeverity = Severity::eWarning | Severity::eError;
+  info.messageType = Type::eValidation | Type::ePerformance;
+  // Newer headers have a function type of their own.
+  info.pfnUserCallback = reinterpret_cast<decltype(info.pfnUserCallback)>(take_message);
+  info.pUserData = messages;
+  return info;
 }
 
 vk::raii::Context open_loader() {

@@ -6,7 +6,9 @@
 #include <cstdio>
 #include <cstring>
 #include <memory>
+#include <string_view>
 #include <system_error>
+#include <utility>
 
 namespace gatelight::scene::gltf {
 namespace {
@@ -86,6 +88,41 @@ void split_glb(Container& container, const std::string& file, Warnings& warnings
   if (!has_json) throw make_error(file, "", "no chunk, expected a JSON chunk");
 }
 
+/// Scenes of other formats, by their extension.
+constexpr std::pair<std::string_view, std::string_view> kOtherFormats[] = {
+    {".blend", "a scene of Blender"},
+    {".pbrt", "a scene of pbrt"},
+    {".xml", "XML, as Mitsuba's scenes are"},
+    {".usd", "USD"},
+    {".usda", "USD"},
+    {".usdc", "USD"},
+    {".usdz", "USD"},
+    {".obj", "Wavefront OBJ"},
+    {".fbx", "FBX"},
+    {".dae", "COLLADA"},
+    {".abc", "Alembic"},
+    {".ply", "PLY"},
+    {".stl", "STL"},
+    {".3ds", "3D Studio"},
+    {".max", "a scene of 3ds Max"},
+    {".ma", "a scene of Maya"},
+    {".mb", "a scene of Maya"},
+    {".c4d", "a scene of Cinema 4D"},
+    {".hip", "a scene of Houdini"},
+    {".skp", "a model of SketchUp"}};
+
+void refuse_other_formats(const std::filesystem::path& path, Bytes bytes) {
+  if (!bytes.empty() && (bytes[0] == '{' || bytes[0] == 'g')) return;  // glTF by another name
+  const std::string extension = path.extension().string();
+  for (const auto& [name, format] : kOtherFormats) {
+    if (extension != name) continue;
+    throw make_error(
+        path.string(), "",
+        fmt::format("{}, expected glTF 2.0 (.gltf, .glb), which Blender and most other tools export",
+                    format));
+  }
+}
+
 }  // namespace
 
 OwnedBytes read_file(const std::filesystem::path& path, std::string_view file, std::string_view where) {
@@ -114,6 +151,7 @@ Container open_container(const std::filesystem::path& path, Warnings& warnings) 
   Container container;
   container.file = read_file(path, file, "");
   const Bytes bytes = container.file;
+  refuse_other_formats(path, bytes);
   if (bytes.empty()) throw make_error(file, "", "an empty file, expected glTF 2.0");
   if (bytes.size() >= 4 && read_u32(bytes, 0) == kMagic) {
     split_glb(container, file, warnings);
