@@ -54,8 +54,9 @@ void raise_current(bool names_option) {
   const apps::Failure failure = apps::describe_current_exception();
   const std::string message = apps::one_line(failure.message);
   const char* const link = failure.advice.empty() ? "" : message.ends_with('?') ? " " : "; ";
+  const bool help = failure.advice == "see --help";
   const py::object error = py::reinterpret_borrow<py::object>(error_class)(
-      py::str(fmt::format("{}{}{}", message, link, failure.advice)));
+      py::str(fmt::format("{}{}{}", message, link, help ? "see help(gatelight.render)" : failure.advice)));
   Parts parts;
   if (names_option) parts = parts_of(message);
   error.attr("option") = parts.option;

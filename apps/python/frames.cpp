@@ -84,6 +84,7 @@ PicturePointer Frames::next() {
     if (!whole_.exposure) whole_.exposure = suitable;  // frames keep the exposure of the first
   });
   if (!picture) throw py::stop_iteration();
+  show_warnings(*picture);
   ++next_;
   return picture;
 }

@@ -110,6 +110,9 @@ void replace(const MeshPart& part, const char* name, Rows& values, const py::obj
 void add_mesh_class(py::module_& module) {
   py::class_<MeshPart> mesh(module, "Mesh",
                             "Triangles of one material. Arrays that are read are views without a copy.");
+  mesh.def("__repr__", [](const MeshPart& part) {
+    return fmt::format("<gatelight.Mesh '{}', {} triangles>", get(part).name, get(part).triangles.size());
+  });
   mesh.def_property_readonly("index", [](const MeshPart& part) { return part.index; });
   mesh.def_property(
       "name", [](const MeshPart& part) { return get(part).name; },
@@ -169,6 +172,9 @@ void add_mesh_class(py::module_& module) {
 
 void add_instance_class(py::module_& module) {
   py::class_<InstancePart> instance(module, "Instance", "A mesh in the world.");
+  instance.def("__repr__", [](const InstancePart& part) {
+    return fmt::format("<gatelight.Instance '{}'>", get(part).name);
+  });
   instance.def_property_readonly("index", [](const InstancePart& part) { return part.index; });
   instance.def_property_readonly("name", [](const InstancePart& part) { return get(part).name; });
   instance.def_property_readonly("mesh", [](const InstancePart& part) {

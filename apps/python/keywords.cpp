@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "apps/settings/option_table.h"
+#include "apps/settings/other_tools.h"
 #include "base/errors.h"
 #include "base/nearest_word.h"
 #include "renderer/settings/presets.h"
@@ -74,6 +75,13 @@ void read(const Option& option, py::handle value) {
   option.read(text);
 }
 
+/// "spp" for "samples"; empty for words that are not known.
+std::string keyword_of_other_tools(std::string name) {
+  std::replace(name.begin(), name.end(), '_', '-');
+  const std::string flag = apps::flag_of_other_tools("--" + name);
+  return flag.starts_with("--") ? keyword_of(flag.substr(2, flag.find(' ') - 2)) : "";
+}
+
 /// The option of each keyword. Throws BadOption for other names.
 std::vector<std::pair<const Option*, py::handle>> match(const std::vector<Option>& table,
                                                         const py::dict& keywords) {
@@ -86,8 +94,10 @@ std::vector<std::pair<const Option*, py::handle>> match(const std::vector<Option
     if (found == table.end()) {
       std::vector<std::string> names;
       for (const Option& option : table) names.push_back(keyword_of(option.name));
-      throw BadOption(fmt::format("{}: there is no such option, expected one of gatelight.options(){}", name,
-                                  did_you_mean(name, names)));
+      const std::string other = keyword_of_other_tools(name);
+      throw BadOption(
+          fmt::format("{}: there is no such option, expected one of gatelight.options(){}", name,
+                      other.empty() ? did_you_mean(name, names) : fmt::format("; here it is '{}'", other)));
     }
     if (!value.is_none()) matched.emplace_back(&*found, value);
   }

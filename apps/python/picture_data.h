@@ -15,6 +15,7 @@ struct PictureData {
   renderer::Picture picture;
   renderer::ImageWriteOptions image;
   std::string statistics = "{}";  ///< JSON
+  std::vector<std::string> warnings;
 };
 
 using PicturePointer = std::shared_ptr<PictureData>;

@@ -103,8 +103,14 @@ PicturePointer finish_picture(renderer::Picture picture, const renderer::RenderS
   data->picture = std::move(picture);
   for (const std::string& output : settings.outputs) apps::write_picture(data->picture, output, data->image);
   data->statistics = apps::stats_json(settings, report);
+  data->warnings = report.warnings;
   if (!settings.stats.empty()) apps::write_text(settings.stats, data->statistics);
   return data;
+}
+
+void show_warnings(const PictureData& picture) {
+  for (const std::string& text : picture.warnings)
+    if (PyErr_WarnEx(PyExc_UserWarning, text.c_str(), 1) != 0) throw py::error_already_set();
 }
 
 Running::Running(ScenePointer scene, const py::dict& keywords)
@@ -149,6 +155,7 @@ PicturePointer Running::render(const py::object& progress, const py::object& sto
     report.total_seconds = seconds_since(start);
     picture = finish_picture(std::move(made), renderer_->statistics(), settings, report);
   });
+  show_warnings(*picture);
   return picture;
 }
 

@@ -21,6 +21,9 @@ apps::RenderSettings settings_for(const SceneData& scene, const pybind11::dict& 
 PicturePointer finish_picture(renderer::Picture picture, const renderer::RenderStatistics& statistics,
                               const apps::RenderSettings& settings, apps::RunReport report);
 
+/// As Python's own warnings. Throws error_already_set where the user made them errors.
+void show_warnings(const PictureData& picture);
+
 class Running {
  public:
   Running(ScenePointer scene, const pybind11::dict& keywords);

@@ -101,6 +101,8 @@ scene::Scene finish_scene(SceneData& data, Unfinished unfinished) {
     if (unfinished.shown) data.file->show(scene, *unfinished.shown);
     return scene;
   }
+  if (scene.instances.empty() && !scene.meshes.empty())
+    add_warning(scene, "the scene has meshes, but no instance that shows them (Scene.add_instance)");
   scene::finish_geometry(scene, true);
   const std::string wrong = scene::wrong_bounds(scene, scene.bounds);
   if (!wrong.empty()) throw InputError(fmt::format("the world: {}", wrong));

@@ -115,6 +115,12 @@ void add_scene(py::module_& module) {
             "transform.");
   scene.def("show", show, py::arg("seconds"),
             "Shows another time of the animations of a file that was loaded with a time.");
+  scene.def("__repr__", [](const ScenePointer& s) {
+    const scene::Scene& source = s->source;
+    return fmt::format("<gatelight.Scene{}, {} meshes, {} instances, {} lights>",
+                       source.path.empty() ? "" : fmt::format(" '{}'", source.path), source.meshes.size(),
+                       source.instances.size(), source.lights.size());
+  });
   add_lists(scene);
   add_facts(scene);
   module.def("load", load_scene, py::arg("path"), py::arg("options"));

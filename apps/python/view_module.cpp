@@ -177,11 +177,17 @@ CameraPart make_camera(const ScenePointer& scene, const py::kwargs& keywords) {
 
 void add_views(py::module_& module) {
   py::class_<LightPart> light(module, "Light", "A point, spot or directional light.");
+  light.def("__repr__", [](const LightPart& part) {
+    return fmt::format("<gatelight.Light '{}'>", part.scene->source.lights[part.index].name);
+  });
   light.def_property_readonly("type", [](const LightPart& part) {
     return std::string(renderer::name_of(kTypes, part.scene->source.lights[part.index].type));
   });
   add_fields(light, light_fields(), &scene::Scene::lights);
   py::class_<CameraPart> camera(module, "Camera", "A camera of a scene, chosen by the option camera.");
+  camera.def("__repr__", [](const CameraPart& part) {
+    return fmt::format("<gatelight.Camera {} '{}'>", part.index, part.scene->source.cameras[part.index].name);
+  });
   add_fields(camera, camera_fields(), &scene::Scene::cameras);
 }
 

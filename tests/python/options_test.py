@@ -10,7 +10,7 @@ import types
 import unittest
 
 import numpy
-from support import DATA, PROGRAM, SMALL, SOURCE, gatelight, lit_square, main
+from support import DATA, PROGRAM, SMALL, SOURCE, gatelight, lit_square, main, square
 
 sys.path.insert(0, str(SOURCE / "scripts/scenes"))
 
@@ -73,6 +73,20 @@ class Options(unittest.TestCase):
             self.assertEqual(caught.exception.option, next(iter(options)))
         with self.assertRaises(gatelight.Error):
             gatelight.frames(DATA / "turntable.glb", frames="0:1", checkpoint="a.safetensors")
+
+    def test_words_of_other_tools(self):
+        for options, hint in ((dict(samples=4), "here it is 'spp'"), (dict(width=64), "here it is 'size'"), (dict(camera="no"), "see help(gatelight.render)")):
+            with self.assertRaises(gatelight.Error) as caught:
+                gatelight.render(lit_square(), **{**SMALL, **options})
+            self.assertIn(hint, str(caught.exception))
+
+    def test_warnings_are_those_of_python(self):
+        scene = gatelight.Scene()
+        square(scene)
+        with self.assertWarnsRegex(UserWarning, "no instance"):
+            picture = gatelight.render(scene, **SMALL)
+        self.assertTrue(any("no instance" in text for text in picture.statistics["warnings"]))
+        self.assertEqual(repr(scene), "<gatelight.Scene, 1 meshes, 0 instances, 0 lights>")
 
     def test_frames(self):
         pictures = list(gatelight.frames(DATA / "turntable.glb", size=(32, 18), preset=None, spp=1, frames=range(2)))
