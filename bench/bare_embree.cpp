@@ -34,23 +34,20 @@ BareEmbree::~BareEmbree() {
 }
 
 void BareEmbree::trace_single(std::span<const renderer::Ray> rays, bool shadow) const {
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
+  renderer::EmbreeQuery query(false);
   for (const renderer::Ray& r : rays) {
     RTCRayHit ray = to_embree(r.origin, r.direction, 0.0f, r.t_max);
     if (shadow) {
-      rtcOccluded1(scene_, &context, &ray.ray);
+      query.occluded(scene_, ray.ray);
     } else {
-      rtcIntersect1(scene_, &context, &ray);
+      query.intersect(scene_, ray);
     }
     benchmark::DoNotOptimize(ray);
   }
 }
 
 std::size_t BareEmbree::trace_packets(std::span<const renderer::Ray> rays, bool shadow, bool coherent) const {
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  context.flags = coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+  renderer::EmbreeQuery query(coherent);
   alignas(64) RTCRayHit16 packet{};
   alignas(64) int valid[16];
   std::size_t missed = 0;
@@ -69,9 +66,9 @@ std::size_t BareEmbree::trace_packets(std::span<const renderer::Ray> rays, bool 
       packet.hit.geomID[i] = packet.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
     }
     if (shadow) {
-      rtcOccluded16(valid, scene_, &context, reinterpret_cast<RTCRay16*>(&packet.ray));
+      query.occluded(valid, scene_, packet.ray);
     } else {
-      rtcIntersect16(valid, scene_, &context, &packet);
+      query.intersect(valid, scene_, packet);
     }
     for (std::size_t i = 0; i < 16; ++i) {
       const bool hit = shadow ? packet.ray.tfar[i] < 0.0f : packet.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID;

@@ -1,12 +1,11 @@
 #pragma once
 // Bare Embree, with the triangles and the build quality of the renderer, but without filter functions.
 
-#include <embree3/rtcore.h>
-
 #include <cstddef>
 #include <cstdint>
 #include <span>
 
+#include "renderer/surface/embree_api.h"
 #include "renderer/surface/ray.h"
 #include "scene/scene.h"
 

@@ -1,6 +1,5 @@
 #include "renderer/surface/accel.h"
 
-#include <embree3/rtcore.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,6 +10,7 @@
 #include "base/errors.h"
 #include "base/simd/isa.h"
 #include "renderer/surface/embree.h"
+#include "renderer/surface/embree_api.h"
 #include "renderer/surface/shadow_transmittance.h"
 
 namespace gatelight::renderer {
@@ -19,16 +19,13 @@ namespace {
 
 constexpr unsigned kPacket = 16;
 
-/// Embree passes its context to the filters, so the lanes are stored behind it.
+/// Embree passes its context, the query's first member, to the filters: the lanes are stored behind it.
 struct Context {
-  RTCIntersectContext embree;
+  EmbreeQuery query;
   const Coverage* coverage;
   ShadowTransmittance lanes[kPacket];
 
-  Context(const Coverage& surfaces, RTCIntersectContextFlags flags) : coverage(&surfaces) {
-    rtcInitIntersectContext(&embree);
-    embree.flags = flags;
-  }
+  Context(const Coverage& surfaces, bool coherent) : query(coherent), coverage(&surfaces) {}
   bool lets_pass(const Hit& hit, bool back, std::uint32_t seed) const {
     if (back && coverage->culls_backs(hit.instance)) return true;
     return coverage->tests_alpha(hit.instance) && !coverage->is_there(hit, seed);
@@ -330,8 +327,7 @@ std::size_t Accel::bytes() const {
 }
 
 void Accel::intersect(std::span<const Ray> rays, std::span<Hit> hits, bool coherent) const {
-  Context context(*coverage_,
-                  coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT);
+  Context context(*coverage_, coherent);
   alignas(64) RTCRayHit16 packet;
   const auto set = [&](unsigned i, const Ray& ray) {
     set_ray(packet.ray, i, ray);
@@ -340,8 +336,8 @@ void Accel::intersect(std::span<const Ray> rays, std::span<Hit> hits, bool coher
     if (state_->any_filter) context.lanes[i].seed = ray.seed;
   };
   for_each_packet(rays, set, [&](std::size_t first, unsigned count, const int* valid) {
-    rtcIntersect16(valid, state_->still, &context.embree, &packet);
-    if (state_->moving) rtcIntersect16(valid, state_->moving, &context.embree, &packet);
+    context.query.intersect(valid, state_->still, packet);
+    if (state_->moving) context.query.intersect(valid, state_->moving, packet);
     for (unsigned i = 0; i < count; ++i) {
       Hit& hit = hits[first + i];
       hit.t = packet.ray.tfar[i];
@@ -355,15 +351,15 @@ void Accel::intersect(std::span<const Ray> rays, std::span<Hit> hits, bool coher
 }
 
 void Accel::transmittance(std::span<const Ray> rays, std::span<Color> result) const {
-  Context context(*coverage_, RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT);
+  Context context(*coverage_, false);
   alignas(64) RTCRay16 packet;
   const auto set = [&](unsigned i, const Ray& ray) {
     set_ray(packet, i, ray);
     if (state_->any_filter) context.lanes[i].start(ray);
   };
   for_each_packet(rays, set, [&](std::size_t first, unsigned count, const int* valid) {
-    rtcOccluded16(valid, state_->still, &context.embree, &packet);
-    if (state_->moving) rtcOccluded16(valid, state_->moving, &context.embree, &packet);
+    context.query.occluded(valid, state_->still, packet);
+    if (state_->moving) context.query.occluded(valid, state_->moving, packet);
     for (unsigned i = 0; i < count; ++i) {
       const bool blocked = packet.tfar[i] < 0.0f;
       result[first + i] = blocked              ? Color(0.0f, 0.0f, 0.0f)

@@ -1,6 +1,6 @@
 #pragma once
 // The version and the instruction set of the ray tracer, for reports. Embree's types are used only in
-// renderer/surface/accel.cpp.
+// renderer/surface/accel.cpp, by embree_api.h.
 
 #include <string>
 
