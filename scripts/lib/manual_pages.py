@@ -47,6 +47,22 @@ def anchors(text):
     return found
 
 
+def _part_lists(text):
+    """Blank lines before lists, and four spaces before paragraphs of an item: Python's Markdown needs both, GitHub does not."""
+    lines, in_code, in_text = [], False, False
+    for line in text.split("\n"):
+        item = re.match(r"(?:[-*]|\d+\.) ", line)
+        after_blank = not lines or not lines[-1].strip()
+        if in_text and item and not in_code:
+            lines.append("")
+        if after_blank and re.match(r" {2,3}[^ ]", line) and not in_code:
+            line = "    " + line.strip()
+        in_code ^= line.startswith("```")
+        in_text = bool(line.strip()) and not item and (in_text or after_blank)
+        lines.append(line)
+    return "\n".join(lines)
+
+
 def line_of(text, place):
     return text.count("\n", 0, place) + 1
 
@@ -110,7 +126,7 @@ class Pages:
                 text = text[:link.start()] + self._moved(name, link[0]) + text[link.end():]
             target = folder / place_in_copy(name)
             target.parent.mkdir(parents=True, exist_ok=True)
-            target.write_text(text, encoding="utf-8")
+            target.write_text(_part_lists(text), encoding="utf-8")
         for name in self.files:
             target = folder / place_in_copy(name)
             target.parent.mkdir(parents=True, exist_ok=True)
