@@ -148,7 +148,7 @@ bool cluster_scene(const PlanScene& scene, std::span<const Clusterable> clustera
     plan.node_count += *count * sides;
   }
   for (const Clusterable& levels : clusterable)
-    set_clusters(levels, plan.scene_levels.at(levels.first()).clusters, plan);
+    set_clusters(levels, plan.scene_levels[levels.first() % plan.scene_levels.size()].clusters, plan);
   return true;
 }
 
