@@ -7,6 +7,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <utility>
 
@@ -92,20 +93,19 @@ class Search {
     std::optional<LayoutPlan> plan;
     if (!plan_fits(scene_, density, limit_, plan)) return false;
     fitting_ = density;
-    plan_ = std::move(plan);
+    plan_ = plan ? std::make_unique<LayoutPlan>(std::move(*plan)) : nullptr;
     return true;
   }
   /// The plan of the last density that fitted.
   LayoutPlan plan() {
-    if (!plan_) plan_ = make_plan(scene_, fitting_, limit_);
-    return std::move(*plan_);
+    return plan_ ? std::move(*plan_) : *make_plan(scene_, fitting_, limit_);
   }
 
  private:
   PlanScene& scene_;
   std::uint64_t limit_;
   Density fitting_;
-  std::optional<LayoutPlan> plan_;
+  std::unique_ptr<LayoutPlan> plan_;
 };
 
 /// solve_scale and solve_spacing return false if nothing fits; `density` is then the coarsest one tried.
