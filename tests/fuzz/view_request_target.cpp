@@ -31,7 +31,7 @@ apps::PictureFile& source() {
         picture.layers = {{.name = "", .channels = {"R", "G", "B"}}, {.name = "depth", .channels = {"Z"}}};
         for (renderer::Layer& layer : picture.layers) layer.values.assign(12 * layer.channels.size(), 0.5f);
         const std::string path = (folder / "a.exr").string();
-        renderer::write_image(path, picture, {});
+        renderer::write_image(picture, path);
         return path;
       }(),
       {"--exposure=auto"});
