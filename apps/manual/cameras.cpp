@@ -13,7 +13,7 @@ namespace {
 
 using nlohmann::json;
 
-/// A key of the keyboard must not wait for more.
+/// The Tab key must not wait for larger files.
 constexpr std::uint64_t kMostBytes = std::uint64_t{64} << 20;
 
 /// The JSON of a .gltf or .glb; empty where there is none.

@@ -11,7 +11,7 @@ namespace gatelight::apps {
 
 struct Completion {
   struct Candidate {
-    std::string word;  ///< the whole word, with what is already typed
+    std::string word;  ///< the whole word, with its typed part
     std::string help;  ///< in short; may be empty
   };
   std::vector<Candidate> candidates;

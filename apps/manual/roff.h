@@ -9,7 +9,7 @@ namespace gatelight::apps {
 /// The characters of the text, without a meaning for roff.
 std::string roff_escaped(std::string_view text);
 
-/// A line of prose: flags and what stands in back-ticks are bold.
+/// A line of prose: flags, and words in back-ticks, are bold.
 std::string roff_prose(std::string_view text);
 
 /// A placeholder of a value: names in capitals are italic.

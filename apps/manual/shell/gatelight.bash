@@ -1,4 +1,5 @@
-# Completion of gatelight in bash: source <(gatelight completion bash). The program itself names what may follow.
+# Completion of gatelight in bash: source <(gatelight completion bash). The program itself names the words that may
+# follow.
 
 # Words of the command line up to the cursor, without quotes, in `words`. bash parts them at ':' and '=' too: `before` is
 # the part of the last one that it leaves as it is.
@@ -16,7 +17,7 @@ _gatelight_words() {
       rest=${rest:${#word}}
     fi
     quoted=$word
-    word=${word//[\"\'\\]/}
+    word=${word//[\"\'\\]/} word=${word/#'$HOME/'/$HOME/}
     if [[ $apart ]]; then
       words+=("$word") before=
     else
@@ -27,7 +28,8 @@ _gatelight_words() {
   [[ $word == [:=] ]] && before=${words[-1]} quoted=
 }
 
-# Files that begin with $1 and have one of the extensions $3, or none is asked for; in $2 only folders.
+# Adds the files that begin with $1, without their first $4 characters: folders and, where $2 is :files, those with one of
+# the extensions $3, or all where it is empty.
 _gatelight_files() {
   local file place
   while IFS= read -r file; do
@@ -45,7 +47,8 @@ _gatelight() {
   _gatelight_words
   COMPREPLY=()
   program=${words[0]/#'~/'/$HOME/}
-  mapfile -t lines < <("${program%-mpi}" __complete -- "${words[@]:1}" 2>/dev/null)
+  program=$(type -P "${program%-mpi}") || return 0
+  mapfile -t lines < <("$program" __complete -- "${words[@]:1}" 2>/dev/null)
   [[ ${lines[-1]-} == :* ]] || return 0
   IFS=$'\t' read -r -a directive <<<"${lines[-1]}"
   unset 'lines[-1]'

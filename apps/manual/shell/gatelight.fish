@@ -1,4 +1,4 @@
-# Completion of gatelight in fish: gatelight completion fish | source. The program itself names what may follow.
+# Completion of gatelight in fish: gatelight completion fish | source. The program itself names the words that may follow.
 
 # Files that begin with the text, and have one of the extensions if there are any; of :folders only those.
 function __gatelight_files -a kind stem
@@ -22,6 +22,7 @@ function __gatelight_complete
     # Without its quotes, unless they are still open.
     set -l plain (string unescape -- $current); or set plain $current
     set -l program (string replace -r -- '-mpi$' '' (string replace -r -- '^~/' "$HOME/" $words[1]))
+    command -q $program; or return
     set -l lines ($program __complete -- $words[2..-1] "$plain" 2>/dev/null)
     string match -q -- ':*' "$lines[-1]"; or return
     set -l directive (string split \t -- $lines[-1])

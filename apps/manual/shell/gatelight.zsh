@@ -1,10 +1,11 @@
 #compdef gatelight gatelight-mpi
-# Completion of gatelight in zsh: source <(gatelight completion zsh). The program itself names what may follow.
+# Completion of gatelight in zsh: source <(gatelight completion zsh). The program itself names the words that may follow.
 
 _gatelight() {
   local program=${${(Q)words[1]}/#\~\//$HOME/} line
   local -a lines directive shown how
-  lines=("${(@f)$("${program%-mpi}" __complete -- "${(@Q)words[2,CURRENT-1]}" "${(Q)PREFIX}" 2>/dev/null)}")
+  program=$(whence -p -- "${program%-mpi}") || return 1
+  lines=("${(@f)$("$program" __complete -- "${(@Q)words[2,CURRENT-1]}" "${(Q)PREFIX}" 2>/dev/null)}")
   [[ $lines[-1] == :* ]] || return 1
   directive=("${(@ps:\t:)lines[-1]}")
   for line in "${(@)lines[1,-2]}"; do

@@ -1,4 +1,4 @@
-// What may follow on the command line, as the scripts of the shells ask for it.
+// Words that may follow on the command line, as the scripts of the shells ask for them.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -157,9 +157,8 @@ TEST_F(Complete, CamerasOfAFileAreThoseOfItsReport) {
   for (const auto& entry : std::filesystem::directory_iterator(GATELIGHT_SOURCE_DIR "/data")) {
     if (entry.path().extension() != ".glb") continue;
     std::vector<std::string> words = {"all"};
-    for (const json& camera :
-         json::parse(run_gatelight({"info", entry.path(), "--json", "-"}).out)["cameras"])
-      words.push_back(camera["name"]);
+    const json report = json::parse(run_gatelight({"info", entry.path(), "--json", "-"}).out);
+    for (const json& camera : report["cameras"]) words.push_back(camera["name"]);
     EXPECT_THAT(completed({"render", entry.path(), "--camera", ""}).words,
                 ::testing::UnorderedElementsAreArray(words))
         << entry.path();

@@ -1,4 +1,4 @@
-// The pages of `gatelight manual`: what they have, and that the programs for manual pages have no complaint.
+// The pages of `gatelight manual`: their content, and the complaints of programs that read them.
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -75,7 +75,6 @@ TEST_F(ManualPage, HasTheExitCodesOfTheProgram) {
 }
 
 TEST_F(ManualPage, NamesEachVariableThatTheSourcesRead) {
-  // The last one makes a device fail, for tests.
   std::set<std::string> variables;
   const std::regex variable("\"(GATELIGHT_[A-Z_]+)\"");
   for (const char* room : {"base", "scene", "neural", "renderer", "apps"}) {
@@ -87,7 +86,7 @@ TEST_F(ManualPage, NamesEachVariableThatTheSourcesRead) {
         variables.insert((*at)[1]);
     }
   }
-  variables.erase("GATELIGHT_VULKAN_LOSE_AFTER");
+  variables.erase("GATELIGHT_VULKAN_LOSE_AFTER");  // makes a device fail, for tests
   EXPECT_GE(variables.size(), 4u);
   for (const std::string& name : variables) EXPECT_THAT(page("mpi"), HasSubstr("\n.TP\n" + name + "\n"));
 }

@@ -1,5 +1,5 @@
 #pragma once
-// Commands of a shell, for tests of what other programs make of ours.
+// Commands of a shell, for tests with other programs.
 
 #include <array>
 #include <cstdio>

@@ -40,7 +40,7 @@ class Shells : public FolderTest {
 
   std::vector<std::string> lines_of(const std::string& command) const {
     std::vector<std::string> lines;
-    std::istringstream text(shell_output("cd '" + path("") + "' && HOME='" + path("") + "' " + command));
+    std::istringstream text(shell_output("cd '" + path("") + "' && HOME=$PWD " + command));
     for (std::string line; std::getline(text, line);) lines.push_back(line);
     return lines;
   }
@@ -89,6 +89,7 @@ TEST_F(Shells, BashCompletesFiles) {
   EXPECT_THAT(in_bash("'render '", "render ''"), UnorderedElementsAre("a room.gltf", "tree.glb", "sub"));
   EXPECT_THAT(in_bash("'render sub/'", "render sub/"), ElementsAre("sub/deep.glb"));
   EXPECT_THAT(in_bash("'render ~/t'", "render '~/t'"), ElementsAre("~/tree.glb"));
+  EXPECT_THAT(in_bash("'render $HOME/t'", "render '$HOME/t'"), ElementsAre(path("tree.glb")));
   EXPECT_THAT(in_bash("'render --stats '", "render --stats ''"), Contains("notes.txt"));
   EXPECT_THAT(in_bash("'render --stats=no'", "render --stats = no"), ElementsAre("notes.txt"));
   EXPECT_THAT(in_bash("'render --ies lamp=no'", "render --ies lamp = no"), ElementsAre("notes.txt"));
