@@ -10,6 +10,8 @@
 #include <string_view>
 #include <vector>
 
+#include "apps/describe_program.h"
+#include "apps/manual/complete.h"
 #include "apps/settings/config_file.h"
 #include "apps/settings/help_format.h"
 #include "apps/settings/other_tools.h"
@@ -185,6 +187,12 @@ int fail(const ConfigFile& config) {
   return failure.code;
 }
 
+/// `gatelight __complete -- WORD...`, by which the scripts of `gatelight completion` ask.
+bool wants_completion(int argc, const char* const* argv) {
+  using std::string_view_literals::operator""sv;
+  return argc > 2 && argv[1] == "__complete"sv && argv[2] == "--"sv;
+}
+
 int parse(int argc, const char* const* argv, bool runs, const RankGroup& group) {
   CLI::App root("Gatelight, an offline path tracer for glTF scenes", "gatelight");
   root.footer(kProgramFooter);
@@ -195,7 +203,7 @@ int parse(int argc, const char* const* argv, bool runs, const RankGroup& group) 
   root.fallthrough();
   root.formatter(make_help_formatter());
   const std::shared_ptr<const ConfigFile> config = accept_config_file(root);
-  const std::vector<Subcommand> subcommands = {
+  std::vector<Subcommand> subcommands = {
       add_render_command(root, std::vector<std::string>(argv, argv + argc), group),
       add_compare_command(root),
       add_info_command(root),
@@ -203,7 +211,14 @@ int parse(int argc, const char* const* argv, bool runs, const RankGroup& group) 
       add_denoise_command(root),
       add_view_command(root),
       add_sweep_command(root, std::vector<std::string>(argv, argv + argc)),
+      add_completion_command(root),
   };
+  subcommands.push_back(add_manual_command(root, subcommands));
+  if (runs && wants_completion(argc, argv)) {
+    const std::vector<std::string> words(argv + 3, argv + argc);
+    write_text("-", text_of(complete(describe_program(root, subcommands), words)));
+    return kDone;
+  }
   try {
     root.parse(argc, argv);
     refuse_empty_words(root);

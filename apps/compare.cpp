@@ -167,7 +167,7 @@ std::vector<Option> option_table(CompareSettings& settings) {
   using namespace renderer;
   std::vector<Option> table = {
       positional("REFERENCE", settings.reference, "Reference picture, .exr, .hdr or .png"),
-      positional("TEST", settings.test, "Picture to be judged"),
+      positional("TEST", settings.test, "Picture to be judged, .exr, .hdr or .png"),
       any_words("halves", settings.halves, "REF2 TEST2",
                 "Second halves of reference and test: also estimates the bias without noise"),
       {.name = "frames",
@@ -196,6 +196,7 @@ std::vector<Option> option_table(CompareSettings& settings) {
       choice("tonemap", settings.flip.tonemap, "For flip, ssim and temporal: curve of pictures")};
   for (Option& option : table) {
     if (option.name == "halves") option.words = 2;
+    if (option.name == "metric") option.names = choice_names(kMetrics);
     if (option.name == "pixels-per-degree") option.default_text = "67.02";
   }
   return table;
@@ -207,8 +208,9 @@ Subcommand add_compare_command(CLI::App& root) {
   CLI::App* app =
       add_subcommand(root, "compare", "Measure how far one picture is from another", kCompareFooter);
   const auto settings = std::make_shared<CompareSettings>();
-  add_flags(*app, option_table(*settings));
-  return {app, [settings] { return run_compare(*settings); }};
+  const std::vector<Option> options = option_table(*settings);
+  add_flags(*app, options);
+  return {.app = app, .run = [settings] { return run_compare(*settings); }, .options = options};
 }
 
 }  // namespace gatelight::apps

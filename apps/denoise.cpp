@@ -249,11 +249,15 @@ class DenoiseRun {
 Subcommand add_denoise_command(CLI::App& root) {
   CLI::App* app = add_subcommand(root, "denoise", "Take the noise out of a picture", kDenoiseFooter);
   const auto settings = std::make_shared<DenoiseSettings>();
-  add_flags(*app, denoise_table(*settings));
-  return {app, [app, settings] {
-            const std::vector<std::string> given = given_flags(*app);
-            return DenoiseRun(*settings, {given.begin(), given.end()}).run();
-          }};
+  const std::vector<Option> options = denoise_table(*settings);
+  add_flags(*app, options);
+  return {.app = app,
+          .run =
+              [app, settings] {
+                const std::vector<std::string> given = given_flags(*app);
+                return DenoiseRun(*settings, {given.begin(), given.end()}).run();
+              },
+          .options = options};
 }
 
 }  // namespace gatelight::apps

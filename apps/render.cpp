@@ -69,7 +69,7 @@ Subcommand add_render_command(CLI::App& root, const std::vector<std::string>& co
             finish_flags(*app, *settings);
             return run_render(*settings, command, group);
           },
-          common_names(options), true};
+          common_names(options), true, options};
 }
 
 }  // namespace gatelight::apps

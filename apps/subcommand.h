@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "apps/rank_group.h"
+#include "apps/settings/option.h"
 
 namespace CLI {
 class App;
@@ -19,6 +20,7 @@ struct Subcommand {
   std::function<int()> run;        ///< called after parsing; returns the exit code, or throws
   std::set<std::string> common{};  ///< flags of the short help, without their dashes; empty: all
   bool of_ranks = false;           ///< several ranks may run it together
+  std::vector<Option> options{};   ///< its flags, for manual pages and completion
 };
 
 Subcommand add_render_command(CLI::App& root, const std::vector<std::string>& command,
@@ -29,5 +31,8 @@ Subcommand add_merge_command(CLI::App& root);
 Subcommand add_denoise_command(CLI::App& root);
 Subcommand add_view_command(CLI::App& root);
 Subcommand add_sweep_command(CLI::App& root, const std::vector<std::string>& command);
+Subcommand add_completion_command(CLI::App& root);
+/// The pages of the other subcommands too, which must outlive it.
+Subcommand add_manual_command(CLI::App& root, const std::vector<Subcommand>& others);
 
 }  // namespace gatelight::apps

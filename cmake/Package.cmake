@@ -18,6 +18,30 @@ foreach(folder IN ITEMS base scene neural renderer)
     FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/gatelight)
 endforeach()
 
+# The program writes its manual pages, where this machine can run it.
+if(NOT CMAKE_CROSSCOMPILING OR CMAKE_CROSSCOMPILING_EMULATOR)
+  set(manual ${PROJECT_BINARY_DIR}/man1)
+  set(left_out "")
+  if(NOT TARGET gatelight-mpi)
+    set(left_out PATTERN gatelight-mpi.1 EXCLUDE)
+  endif()
+  add_custom_command(OUTPUT ${manual}/gatelight.1 COMMAND gatelight manual -o ${manual} DEPENDS gatelight VERBATIM)
+  add_custom_target(gatelight_manual ALL DEPENDS ${manual}/gatelight.1)
+  install(DIRECTORY ${manual}/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 ${left_out})
+endif()
+# bash and fish look for a script by the program's name; that for zsh names its programs.
+set(shell ${PROJECT_SOURCE_DIR}/apps/manual/shell)
+install(FILES ${shell}/gatelight.zsh DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions RENAME _gatelight)
+foreach(program IN ITEMS gatelight gatelight-mpi)
+  if(NOT TARGET ${program})
+    continue()
+  endif()
+  install(FILES ${shell}/gatelight.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions
+    RENAME ${program})
+  install(FILES ${shell}/gatelight.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d
+    RENAME ${program}.fish)
+endforeach()
+
 install(TARGETS gatelight_openimageio LIBRARY DESTINATION ${GATELIGHT_PLUGIN_FOLDER})
 install(EXPORT gatelight FILE gatelightTargets.cmake NAMESPACE gatelight:: DESTINATION ${GATELIGHT_PACKAGE_DIR})
 configure_package_config_file(

@@ -343,7 +343,7 @@ void add_cache_file_options(std::vector<Option>& table, CacheOptions& options) {
       any_word("cache-in", options.cache_in, "FILE",
                "Start from a cache that --cache-out wrote, of the same scene and cache flags"))));
   files.add(in_recipe(common(not_in_sweep(any_word("cache-out", options.cache_out, "FILE",
-                                                   "Write the trained cache (safetensors)"))),
+                                                   "Write the trained cache, .safetensors"))),
                       InRecipe::unless_reproducible));
   for (const std::size_t back : {1, 2}) table[table.size() - back].of_cache = true;
 }

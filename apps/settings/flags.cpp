@@ -24,9 +24,7 @@ void add_flag(CLI::App& app, const Option& option) {
   flag->group(option.group)->required(option.required);
   if (option.toggle) return;
   flag->type_name(option.unit);
-  const bool shows = option.default_text.empty() && option.value && !option.list;
-  const std::string default_text = shows ? option.text() : option.default_text;
-  if (!default_text.empty()) flag->default_str(default_text);
+  if (const std::string text = option.shown_default(); !text.empty()) flag->default_str(text);
 }
 
 /// The name of a flag; the library gives none for flags that are not in the help.

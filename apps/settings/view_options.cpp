@@ -119,7 +119,7 @@ void add_view_options(std::vector<Option>& table, renderer::CameraOptions& camer
   add({.name = "environment",
        .unit = "auto|none|r,g,b|FILE",
        .help = "Light from all around: a soft sky if the scene has no light (auto), one radiance, or a "
-               "latitude-longitude EXR or HDR",
+               "latitude-longitude .exr or .hdr",
        .value = [&environment] { return environment_value(environment); },
        .read = [&environment](const std::string& text) { read_environment(environment, text); },
        .common = true});

@@ -13,6 +13,12 @@ if(SANITIZE)
   set(flags "-fsanitize=address,undefined")
 endif()
 step("install" ${CMAKE_COMMAND} --install ${BUILD_DIR} --prefix ${WORK_DIR}/prefix)
+foreach(file IN ITEMS man/man1/gatelight.1 man/man1/gatelight-render.1 bash-completion/completions/gatelight
+    zsh/site-functions/_gatelight fish/vendor_completions.d/gatelight.fish)
+  if(NOT EXISTS ${WORK_DIR}/prefix/share/${file})
+    message(FATAL_ERROR "share/${file} is not installed")
+  endif()
+endforeach()
 step("configure the consumer" ${CMAKE_COMMAND} -S ${CONSUMER_DIR} -B ${WORK_DIR}/build -G ${GENERATOR}
   -D README=${README} -D CMAKE_PREFIX_PATH=${WORK_DIR}/prefix -D CMAKE_CXX_COMPILER=${CXX_COMPILER} -D CMAKE_CXX_FLAGS=${flags})
 step("build the consumer" ${CMAKE_COMMAND} --build ${WORK_DIR}/build)
