@@ -58,9 +58,9 @@ std::string begin_page(const std::string& name, const std::string& version, cons
                  [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
   std::string text = summary;
   if (!text.empty()) text[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(text[0])));
-  // Without a date: equal sources give equal pages.
+  // Without a date: equal sources give equal pages. Names of files and flags are not hyphenated.
   return fmt::format(
-      ".TH {} 1 \"\" \"Gatelight {}\" \"Gatelight Manual\"\n.SH NAME\n{} \\- {}\n.SH SYNOPSIS\n",
+      ".TH {} 1 \"\" \"Gatelight {}\" \"Gatelight Manual\"\n.nh\n.SH NAME\n{} \\- {}\n.SH SYNOPSIS\n",
       roff_escaped(title), version, roff_escaped(name), roff_escaped(text));
 }
 
