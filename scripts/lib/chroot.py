@@ -57,7 +57,7 @@ class Chroot:
         try:
             return run(self.words(command), **more)
         except Failed as failure:
-            lines = str(failure).splitlines()[-20:]
+            lines = str(failure).split(f"{command}' ended with")[-1].splitlines()[-20:]
             raise Failed("\n".join([f"'{command}' failed in the chroot:"] + lines)) from None
 
     def start(self, command):

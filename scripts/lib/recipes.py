@@ -46,11 +46,27 @@ def commands_of_definition(lines):
     return posts
 
 
+def same_steps():
+    """The steps of the Dockerfile by stage. Throws where gatelight.def has other commands."""
+    stages = docker_steps(joined_lines(os.path.join(FOLDER, "Dockerfile")))
+    ran = [[text for word, text in steps if word == "RUN"] for steps in stages]
+    if ran != commands_of_definition(joined_lines(os.path.join(FOLDER, "gatelight.def"))):
+        raise Failed("gatelight.def has other commands than the Dockerfile")
+    return stages
+
+
 def copy_sources(system, target):
     """The files that git knows, as a build from a checkout has them."""
     for name in run(["git", "-C", script.ROOT, "ls-files"]).splitlines():
         system.copy_in(os.path.join(script.ROOT, name), os.path.join(target, name))
     shutil.copytree(os.path.join(script.ROOT, ".git"), system.path(os.path.join(target, ".git")), symlinks=True)
+
+
+def copy_denoiser(system):
+    """Open Image Denoise, if this machine has fetched it: the download is not what is tested here."""
+    cache = os.path.join(os.environ.get("XDG_CACHE_HOME") or os.path.expanduser("~/.cache"), "gatelight")
+    if os.path.isdir(cache):
+        system.copy_in(cache, "/root/.cache/gatelight")
 
 
 def run_stage(system, former, steps):
@@ -70,17 +86,14 @@ def run_stage(system, former, steps):
                 system.copy_in(file, os.path.join(target, os.path.basename(file)))
         else:
             copy_sources(system, text.split()[1])
+            copy_denoiser(system)
     return entry
 
 
 def check(base, work):
     """Returns the exit code."""
-    stages = docker_steps(joined_lines(os.path.join(FOLDER, "Dockerfile")))
-    ran = [[text for word, text in steps if word == "RUN"] for steps in stages]
-    if ran != commands_of_definition(joined_lines(os.path.join(FOLDER, "gatelight.def"))):
-        raise Failed("gatelight.def has other commands than the Dockerfile")
     former = None
-    for number, steps in enumerate(stages):
+    for number, steps in enumerate(same_steps()):
         system = base.copy(os.path.join(work, f"stage{number}"))
         entry = run_stage(system, former, steps)
         former = Chroot(system.folder, system.archives)
