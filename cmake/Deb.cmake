@@ -60,7 +60,7 @@ if(TARGET gatelight-mpi)
     DESCRIPTION "${summary} (several machines)\n${description}\nThe program gatelight-mpi renders one picture on several machines by MPI."
     DEPENDS "gatelight ${same_version}" RECOMMENDS openmpi-bin)
 endif()
-# What gatelightConfig.cmake finds, and libwebp. A program that reads pictures in other formats than EXR, JPEG, PNG and
+# The packages of gatelightConfig.cmake, and libwebp. A program that reads pictures in other formats than EXR, JPEG, PNG and
 # WebP loads OpenImageIO from the package gatelight.
 gatelight_add_deb(dev NAME libgatelight-dev SECTION libdevel
   DESCRIPTION "${summary} (C++ libraries)\n${description}\nStatic libraries, headers and the CMake package gatelight."

@@ -11,7 +11,7 @@ import threading
 
 from script import Failed, run
 
-# What the system writes by itself: its lists, logs and caches.
+# Files of the system itself: lists, logs, caches.
 STATE = ("proc", "dev", "sys", "tmp", "run", "var/lib/dpkg", "var/lib/apt", "var/cache", "var/log", "etc/ld.so.cache")
 ENTER = """
 set -e
