@@ -21,8 +21,7 @@ TracingOnly::TracingOnly(const WorldFixture& world) : bare_(world.bare()) {
 
 std::uint64_t TracingOnly::trace(std::span<const renderer::CameraSample> samples) const {
   std::uint64_t rays = 0;
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
+  renderer::EmbreeQuery query(false);
   const RTCScene scene = bare_.scene();
   for (const renderer::CameraSample& sample : samples) {
     Vec3 origin = sample.camera_ray.ray.origin;
@@ -34,7 +33,7 @@ std::uint64_t TracingOnly::trace(std::span<const renderer::CameraSample> samples
     };
     for (int depth = 0; depth < kMaxDepth; ++depth) {
       RTCRayHit ray = to_embree(origin, direction, 1e-4f, kInfinity);
-      rtcIntersect1(scene, &context, &ray);
+      query.intersect(scene, ray);
       ++rays;
       if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) break;
       Vec3 n = Vec3(ray.hit.Ng_x, ray.hit.Ng_y, ray.hit.Ng_z).normalized();
@@ -49,7 +48,7 @@ std::uint64_t TracingOnly::trace(std::span<const renderer::CameraSample> samples
       }
       if (to_light.dot(n) > 0.0f) {
         RTCRayHit shadow = to_embree(origin, to_light, 0.0f, t_max);
-        rtcOccluded1(scene, &context, &shadow.ray);
+        query.occluded(scene, shadow.ray);
         benchmark::DoNotOptimize(shadow.ray.tfar);
         ++rays;
       }

@@ -1,21 +1,26 @@
 # Install rules and the exported package. find_package(gatelight) gives gatelight::base, gatelight::scene,
 # gatelight::neural and gatelight::renderer.
+#
+# The components are those of the packages: gatelight (the program and all that belongs to it, also files that other
+# folders install without naming a component), mpi, dev, python and bench.
 include(CMakePackageConfigHelpers)
 
 set(GATELIGHT_PACKAGE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/gatelight)
 
-foreach(program IN ITEMS gatelight gatelight-mpi gatelight-bench)
-  if(TARGET ${program})
-    install(TARGETS ${program} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
-  endif()
-endforeach()
+install(TARGETS gatelight RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+if(TARGET gatelight-mpi)
+  install(TARGETS gatelight-mpi RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT mpi)
+endif()
+if(TARGET gatelight-bench)
+  install(TARGETS gatelight-bench RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT bench)
+endif()
 
 foreach(folder IN ITEMS base scene neural renderer)
   if(NOT TARGET gatelight_${folder})
     continue()
   endif()
-  install(TARGETS gatelight_${folder} EXPORT gatelight ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
-    FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/gatelight)
+  install(TARGETS gatelight_${folder} EXPORT gatelight ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT dev
+    FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/gatelight COMPONENT dev)
 endforeach()
 
 # The program writes its manual pages, where this machine can run it.
@@ -43,7 +48,17 @@ foreach(program IN ITEMS gatelight gatelight-mpi)
 endforeach()
 
 install(TARGETS gatelight_openimageio LIBRARY DESTINATION ${GATELIGHT_PLUGIN_FOLDER})
-install(EXPORT gatelight FILE gatelightTargets.cmake NAMESPACE gatelight:: DESTINATION ${GATELIGHT_PACKAGE_DIR})
+if(GATELIGHT_OIDN_FOLDER)
+  file(GLOB oidn ${GATELIGHT_OIDN_FOLDER}/libOpenImageDenoise*.so.*)
+  if(NOT oidn)
+    message(FATAL_ERROR "'${GATELIGHT_OIDN_FOLDER}' (GATELIGHT_OIDN_FOLDER) has no Open Image Denoise: scripts/setup fetches it")
+  endif()
+  # The libraries look for each other in ../lib, so their folder has this name.
+  install(FILES ${oidn} DESTINATION ${GATELIGHT_PLUGIN_FOLDER}/oidn/lib)
+  install(FILES LICENSE scripts/packages/THIRD-PARTY DESTINATION ${GATELIGHT_PLUGIN_FOLDER}/oidn)
+endif()
+install(EXPORT gatelight FILE gatelightTargets.cmake NAMESPACE gatelight:: DESTINATION ${GATELIGHT_PACKAGE_DIR}
+  COMPONENT dev)
 configure_package_config_file(
   ${CMAKE_CURRENT_LIST_DIR}/gatelightConfig.cmake.in ${PROJECT_BINARY_DIR}/gatelightConfig.cmake
   INSTALL_DESTINATION ${GATELIGHT_PACKAGE_DIR} NO_SET_AND_CHECK_MACRO)
@@ -51,5 +66,8 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/gatelightConfigVersion.cm
 install(FILES
   ${PROJECT_BINARY_DIR}/gatelightConfig.cmake
   ${PROJECT_BINARY_DIR}/gatelightConfigVersion.cmake
-  DESTINATION ${GATELIGHT_PACKAGE_DIR})
+  DESTINATION ${GATELIGHT_PACKAGE_DIR} COMPONENT dev)
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
+if(PROJECT_IS_TOP_LEVEL)
+  include(Deb)
+endif()

@@ -56,10 +56,13 @@ std::vector<fs::path> candidates(const std::string& place) {
   const auto add = [&](const fs::path& file) {
     if (fs::exists(file, error)) files.push_back(file);
   };
-  for (const fs::path& folder : cache_folders()) add(folder / kFile);
   const fs::path program = fs::read_symlink("/proc/self/exe", error);
-  if (!error) add(program.parent_path().parent_path() / "lib" / kFile);
-  add(fs::path(GATELIGHT_INSTALL_PREFIX) / "lib" / kFile);
+  std::vector<fs::path> prefixes;
+  if (!error) prefixes.push_back(program.parent_path().parent_path());
+  prefixes.emplace_back(GATELIGHT_INSTALL_PREFIX);
+  for (const fs::path& prefix : prefixes) add(prefix / GATELIGHT_PACKAGED_OIDN / kFile);
+  for (const fs::path& folder : cache_folders()) add(folder / kFile);
+  for (const fs::path& prefix : prefixes) add(prefix / "lib" / kFile);
   files.emplace_back(kFile);  // without a folder: where the system's loader looks
   return files;
 }

@@ -14,10 +14,10 @@ struct OidnLibrary {
 };
 
 /// Loads the library once; it stays loaded. `place` is its file or a folder that has it. Where it is empty,
-/// the library is searched in the cache folder where scripts/setup puts it ($XDG_CACHE_HOME or ~/.cache, then
-/// gatelight/oidn-*/lib), in lib/ of the prefix that the program is installed in, and by the system's loader,
-/// in that order. Throws MissingDenoiser: it is not there, it is not a version 2, or it does not support this
-/// processor.
+/// the library is searched in lib/gatelight/oidn/lib of the prefix that the program is installed in, where
+/// packages have it, in the cache folder where scripts/setup puts it ($XDG_CACHE_HOME or ~/.cache, then
+/// gatelight/oidn-*/lib), in lib/ of that prefix, and by the system's loader, in that order. Throws
+/// MissingDenoiser: it is not there, it is not a version 2, or it does not support this processor.
 const OidnLibrary& load_oidn(const std::string& place);
 
 /// The first file that load_oidn(place) would try.

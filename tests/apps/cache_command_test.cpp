@@ -180,7 +180,8 @@ TEST_F(CacheCommand, ProgressGoesThroughThePhases) {
   for (std::string line; std::getline(lines, line);) {
     const json object = json::parse(line);
     if (object["event"] != "progress") continue;
-    if (phases.empty() || phases.back() != object["phase"]) phases.push_back(object["phase"]);
+    const auto phase = object["phase"].get<std::string>();
+    if (phases.empty() || phases.back() != phase) phases.push_back(phase);
     EXPECT_GE(object["fraction"], 0.0);
     EXPECT_LE(object["fraction"], 1.0);
     EXPECT_GE(object.value("eta_seconds", 0.0), 0.0) << line;
