@@ -109,7 +109,8 @@ PicturePointer denoise(const py::object& color, const py::object& albedo, const 
   const renderer::RenderOptions& options = settings.render;
   Waiting waiting;
   waiting.run([&] {
-    const renderer::OidnLibrary& oidn = renderer::load_oidn(apps::oidn_place(options.denoise.library));
+    const std::string place = apps::oidn_place(options.denoise.library);
+    const renderer::OidnLibrary& oidn = renderer::load_oidn(place);
     const int threads = options.threads > 0 ? options.threads : available_threads();
     require_threads(threads);
     const tbb::global_control control(tbb::global_control::max_allowed_parallelism,

@@ -100,7 +100,7 @@ const ordered_json& cell_of(const ordered_json& results, const std::string& run)
 TEST(SweepEqualError, IsOfMeansAgainstPathTracingOfTheSamePicture) {
   ordered_json all = results();
   // The mean is an error of 1 after 2 seconds, for which paths need 8 and 4.
-  const ordered_json& cached = cell_of(all, "cached");
+  const ordered_json cached = cell_of(all, "cached");
   EXPECT_NEAR(cached["equal_seconds"]["rel_mse_clean"], 8.0, 1e-9);
   EXPECT_NEAR(cached["times_faster"]["rel_mse_clean"], 4.0, 1e-9);
   EXPECT_NEAR(cached["times_faster"]["denoised_rel_mse_clean"], 2.0, 1e-9);
