@@ -11,6 +11,7 @@
 #include "apps/settings/option_table.h"
 #include "apps/settings/show_well.h"
 #include "apps/terminal/errors.h"
+#include "apps/terminal/text.h"
 
 namespace gatelight::apps {
 namespace {
@@ -64,22 +65,6 @@ std::vector<std::string> words_of(const std::vector<std::string>& words, const L
   return all;
 }
 
-/// For a POSIX shell.
-std::string quoted(const std::string& word) {
-  constexpr std::string_view kPlain =
-      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_=+./,:%@";
-  if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) return word;
-  std::string text = "'";
-  for (const char c : word) {
-    if (c == '\'') {
-      text += "'\\''";
-    } else {
-      text += c;
-    }
-  }
-  return text + "'";
-}
-
 }  // namespace
 
 std::vector<std::string> given_words(RenderSettings settings) {
@@ -122,9 +107,10 @@ RenderSettings settings_of(const std::string& scene, const std::vector<std::stri
 
 std::string render_command(const std::string& scene, const std::vector<std::string>& words,
                            const LiveFlags& flags) {
-  std::string command = "gatelight render " + quoted(scene);
-  for (const std::string& word : words_of(words, flags)) command += fmt::format(" {}", quoted(word));
-  return command;
+  std::vector<std::string> command = {"gatelight", "render", scene};
+  const std::vector<std::string> all = words_of(words, flags);
+  command.insert(command.end(), all.begin(), all.end());
+  return quote_command(command);
 }
 
 }  // namespace gatelight::apps

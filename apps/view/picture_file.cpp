@@ -10,8 +10,6 @@
 namespace gatelight::apps {
 namespace {
 
-constexpr std::size_t kMostViewers = 64;
-
 /// The flags that change how a picture is shown.
 bool is_of_display(const std::string& name) {
   return name == "exposure" || name == "tonemap" || name == "white-balance";

@@ -2,6 +2,7 @@
 // What a page shows: pictures of a scene that are made while it is open, or a finished picture.
 
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -14,6 +15,9 @@
 #include "renderer/render.h"
 
 namespace gatelight::apps {
+
+/// A further one takes the place of another.
+inline constexpr std::size_t kMostViewers = 64;
 
 /// A picture that a viewer has got. It does not change.
 struct ShownPicture {

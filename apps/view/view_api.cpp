@@ -11,6 +11,7 @@
 #include "apps/reports/recipe.h"
 #include "apps/settings/parsing.h"
 #include "apps/terminal/errors.h"
+#include "apps/terminal/text.h"
 #include "apps/view/pixel_report.h"
 #include "apps/view/shown_layers.h"
 #include "apps/view/view_page.h"
@@ -34,10 +35,7 @@ const char* name_of_stage(Stage stage) {
 }
 
 WebResponse json_response(const ordered_json& json, int status = 200) {
-  // Names of a file need not be UTF-8.
-  return {.status = status,
-          .type = "application/json; charset=utf-8",
-          .body = json.dump(-1, ' ', false, ordered_json::error_handler_t::replace)};
+  return {.status = status, .type = "application/json; charset=utf-8", .body = json_text(json, -1)};
 }
 
 WebResponse error_response(int status, const std::string& message) {

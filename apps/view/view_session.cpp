@@ -15,7 +15,6 @@ namespace {
 constexpr double kGone = 30.0;
 /// Seconds from the begin of a final picture to the first look at it, and the factor of the next ones.
 constexpr double kFirstLook = 1.5, kNextLook = 2.0;
-constexpr std::size_t kMostViewers = 64;
 
 /// The viewer that has not been seen for the longest time.
 template <class Viewers>
