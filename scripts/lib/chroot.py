@@ -131,12 +131,13 @@ class Background:
         self.reader.join()
 
 
-def make_base(folder, mirror, archives):
-    """A minimal system of the Debian that this runs on, with current lists of packages."""
-    name = suite()
+def make_base(folder, name, mirror, archives):
+    """A minimal Debian by its code name, with current lists of packages. `mirror` may be None: debootstrap's own."""
     os.makedirs(os.path.join(archives, "partial"), exist_ok=True)
-    run(["debootstrap", "--variant=minbase", f"--cache-dir={archives}", name, folder, mirror])
+    run(["debootstrap", "--variant=minbase", f"--cache-dir={archives}", name, folder, *([mirror] if mirror else [])])
     base = Chroot(folder, archives)
+    with open(base.path("etc/apt/sources.list"), encoding="utf-8") as file:
+        mirror = file.read().split()[1]  # "deb MIRROR SUITE main"
     security = mirror.rstrip("/") + "-security"
     with open(base.path("etc/apt/sources.list"), "w", encoding="utf-8") as file:
         file.write(f"deb {mirror} {name} main\ndeb {mirror} {name}-updates main\ndeb {security} {name}-security main\n")
