@@ -48,33 +48,6 @@ TEST_F(Usage, HelpFitsOnTwoScreens) {
   EXPECT_EQ(run_gatelight_inside({"render", scene(), "--help"}).out, help.out) << "a scene is no topic";
 }
 
-TEST_F(Usage, TellsWhatWordsOfOtherToolsAreHere) {
-  const std::string square = scene();
-  for (const auto& [arguments, hint] : std::vector<std::pair<std::vector<std::string>, std::string>>{
-           {{square}, "gatelight render " + square + " -o picture.png"},
-           {{"help"}, "did you mean '--help'?"},
-           {{"-b", "a.blend"}, "here it is 'gatelight render"},
-           {{"render", square, "a.png"}, "did you mean '-o a.png'?"},
-           {{"render", square, "-o", "a.png", "--samples", "4"}, "here it is '--spp N'"},
-           {{"render", square, "-o", "a.png", "-t", "4"}, "here it is '--threads N'"},
-           {{"render", square, "--outfile", "a.png"}, "here it is '-o FILE'"},
-           {{"render", square, "-o", "a.png", "--resolution", "64x48"},
-            "the size of the picture is '--size WxH'"}}) {
-    const Output output = run_gatelight_inside(arguments);
-    EXPECT_EQ(output.exit_code, 1);
-    EXPECT_THAT(output.last_error_line(), HasSubstr(hint));
-  }
-}
-
-TEST_F(Usage, ScenesOfOtherToolsAreNamed) {
-  for (const auto& [name, format] : std::vector<std::pair<std::string, std::string>>{
-           {"a.blend", "a scene of Blender"}, {"a.pbrt", "a scene of pbrt"}, {"a.obj", "Wavefront OBJ"}}) {
-    const Output output = run_gatelight_inside({"info", folder.write(name, "x")});
-    EXPECT_EQ(output.exit_code, 2);
-    EXPECT_THAT(output.last_error_line(), HasSubstr(name + ": " + format + ", expected glTF 2.0"));
-  }
-}
-
 TEST_F(Usage, EachFlagOfTheShortHelpExists) {
   const std::string all =
       run_gatelight_inside({"render", "--help-all"}).out + run_gatelight_inside({"info", "--help-all"}).out;
