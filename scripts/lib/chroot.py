@@ -13,10 +13,15 @@ from script import Failed, run
 
 # Files of the system itself: lists, logs, caches.
 STATE = ("proc", "dev", "sys", "tmp", "run", "var/lib/dpkg", "var/lib/apt", "var/cache", "var/log", "etc/ld.so.cache")
+# The root is made a mount point: programs may change how mounts propagate only there.
 ENTER = """
 set -e
+mount --bind "$1" "$1"
 mount -t proc proc "$1/proc"
 mount --bind "$2" "$1/var/cache/apt/archives"
+for pair in "${@:4}"; do
+  mount --rbind "${pair%%:*}" "$1${pair#*:}"
+done
 exec chroot "$1" /usr/bin/env -i PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin HOME=/root \
   LC_ALL=C.UTF-8 DEBIAN_FRONTEND=noninteractive bash -c "cd /root; $3"
 """
@@ -42,15 +47,18 @@ def suite():
 
 
 class Chroot:
-    """`archives` keeps the packages that apt downloads."""
+    """`archives` keeps the packages that apt downloads. `binds`: folders of the host, by their names here."""
 
-    def __init__(self, folder, archives):
+    def __init__(self, folder, archives, binds=None):
         self.folder = folder
         self.archives = archives
+        self.binds = binds or {}
 
     def words(self, command):
+        for name in self.binds:
+            os.makedirs(self.path(name), exist_ok=True)
         return ["unshare", "--mount", "--pid", "--fork", "--kill-child=SIGKILL", "--", "bash", "-c", ENTER, "enter",
-                self.folder, self.archives, command]
+                self.folder, self.archives, command, *(f"{source}:{name}" for name, source in self.binds.items())]
 
     def run(self, command, **more):
         """Runs the text as a shell's command, in /root. Returns its standard output."""
