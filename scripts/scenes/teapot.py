@@ -47,6 +47,14 @@ def patches():
         yield tuple(tuple((x, -y, z) for x, y, z in reversed(row)) for row in half)
 
 
+def mixed(weights, values):
+    """The sum of weighted values from the first to the last. sum() rounds otherwise since Python 3.12."""
+    total = 0.0
+    for weight, value in zip(weights, values):
+        total += weight * value
+    return total
+
+
 def tessellate(pieces, height):
     """A mesh of `pieces` times `pieces` quadrilaterals a patch, y up, standing on y = 0, `height` metres high."""
     weights = [((1 - t) ** 3, 3 * t * (1 - t) ** 2, 3 * t * t * (1 - t), t ** 3)
@@ -55,9 +63,9 @@ def tessellate(pieces, height):
     for patch in patches():
         mesh = Mesh()
         for bv in weights:
-            row = [[sum(bv[j] * patch[j][i][k] for j in range(4)) for k in range(3)] for i in range(4)]
+            row = [[mixed(bv, (patch[j][i][k] for j in range(4))) for k in range(3)] for i in range(4)]
             for bu in weights:
-                x, y, z = (sum(bu[i] * row[i][k] for i in range(4)) for k in range(3))
+                x, y, z = (mixed(bu, (row[i][k] for i in range(4))) for k in range(3))
                 mesh.positions.append((x, z, -y))
         for a, b, c, d in cells(pieces, pieces):
             mesh.triangles += [(a, c, d), (a, b, c)]
