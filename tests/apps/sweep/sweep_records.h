@@ -1,0 +1,50 @@
+#pragma once
+// A plan of one scene, and what a cell of it measured.
+
+#include <limits>
+
+#include "apps/sweep/cell_record.h"
+#include "apps/sweep/request.h"
+
+namespace gatelight::apps {
+
+inline SweepPlan small_plan() {
+  SweepWords words;
+  words.scenes = {"a, \"b\".glb"};
+  words.vary = {"stack=adaptive,1;adaptive"};
+  words.train_steps = "4,8";
+  return make_plan(make_request(words));
+}
+
+inline renderer::RenderStatistics statistics() {
+  renderer::RenderStatistics s;
+  s.render_seconds = 0.25;
+  s.cache.scout_seconds = 0.5;
+  s.cache.setup_seconds = 1.0;
+  s.cache.train_seconds = 2.0;
+  s.cache.train_step_seconds = 0.8;
+  s.cache.steps = 8;
+  s.cache.queries = 1000;
+  s.cache.render_query_seconds = 0.001;
+  s.cache.parameter_bytes = 123;
+  s.cache.loss = 0.5;
+  s.cache.normal_input = true;
+  s.cache.node_spacing = 0.1f;
+  s.cache.backend = "cpu avx2";
+  s.isa = "avx2";
+  return s;
+}
+
+inline CellErrors errors() {
+  CellErrors e;
+  e.metrics.mse = 0.01;
+  e.metrics.rel_mse = 0.02;
+  e.metrics.psnr = std::numeric_limits<double>::infinity();
+  e.rel_mse_clean = 0.015;
+  e.ssim = 0.9;
+  e.flip.emplace();
+  e.flip->summary = {.mean = 0.1, .weighted_median = 0.3, .first_quartile = 0.2, .third_quartile = 0.4};
+  return e;
+}
+
+}  // namespace gatelight::apps
