@@ -4,13 +4,13 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <fstream>
 #include <numbers>
 #include <string>
 
 #include "base/errors.h"
+#include "base/to_number.h"
 
 namespace gatelight::scene {
 namespace {
@@ -34,11 +34,10 @@ class Numbers {
         0, static_cast<std::size_t>(std::find_if(rest_.begin(), rest_.end(), part) - rest_.begin()));
     rest_.remove_prefix(word.size());
     const std::string_view digits = word.substr(word.front() == '+' ? 1 : 0);
-    double value = 0.0;
-    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-    if (error != std::errc() || end != digits.data() + digits.size() || !std::isfinite(value))
+    const std::optional<double> value = to_number<double>(digits);
+    if (!value || !std::isfinite(*value))
       throw InputError(fmt::format("{} is '{}', expected a number", what, word.substr(0, 40)));
-    return value;
+    return *value;
   }
 
   int count(std::string_view what, int least) {

@@ -4,24 +4,15 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <optional>
 
 #include "base/errors.h"
 #include "base/nearest_word.h"
+#include "base/to_number.h"
 
 namespace gatelight::apps {
 namespace {
-
-template <typename Number>
-std::optional<Number> read_number(std::string_view text) {
-  Number number{};
-  const char* end = text.data() + text.size();
-  const auto [stop, error] = std::from_chars(text.data(), end, number);
-  if (error != std::errc() || stop != end) return std::nullopt;
-  return number;
-}
 
 [[noreturn]] void refuse(const std::string& flag, const std::string& text, const std::string& expected) {
   throw BadOption(fmt::format("{}: '{}' is not {}", flag, text, expected));
@@ -66,7 +57,7 @@ std::optional<std::array<Number, size>> read_numbers(std::string_view text, char
   std::array<Number, size> numbers{};
   if (parts.size() != size) return std::nullopt;
   for (std::size_t i = 0; i < size; ++i) {
-    const std::optional<Number> number = read_number<Number>(parts[i]);
+    const std::optional<Number> number = to_number<Number>(parts[i]);
     if (!number) return std::nullopt;
     numbers[i] = *number;
   }
@@ -76,13 +67,13 @@ std::optional<std::array<Number, size>> read_numbers(std::string_view text, char
 }  // namespace
 
 std::int64_t parse_integer(const std::string& flag, const std::string& text, const IntegerRange& range) {
-  const std::optional<std::int64_t> value = read_number<std::int64_t>(text);
+  const std::optional<std::int64_t> value = to_number<std::int64_t>(text);
   if (!value || *value < range.min || *value > range.max) refuse(flag, text, describe(range));
   return *value;
 }
 
 double parse_real(const std::string& flag, const std::string& text, const RealRange& range) {
-  const std::optional<double> value = read_number<double>(text);
+  const std::optional<double> value = to_number<double>(text);
   if (!value || !inside(*value, range)) refuse(flag, text, describe(range));
   return *value;
 }

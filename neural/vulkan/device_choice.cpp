@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <optional>
 
 #include "base/errors.h"
+#include "base/to_number.h"
 
 namespace gatelight::neural::vulkan {
 
@@ -17,13 +17,6 @@ std::string lower(std::string_view text) {
   for (char& c : result)
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
   return result;
-}
-
-std::optional<std::size_t> as_index(std::string_view text) {
-  std::size_t index = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), index);
-  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-  return index;
 }
 
 std::string listing(std::span<const DeviceFacts> devices) {
@@ -77,7 +70,7 @@ std::string refusal(const DeviceFacts& d) {
 
 std::size_t choose_device(std::span<const DeviceFacts> devices, std::string_view wanted) {
   if (wanted.empty()) return choose_best(devices);
-  const std::optional<std::size_t> index = as_index(wanted);
+  const std::optional<std::size_t> index = to_number<std::size_t>(wanted);
   if (index && *index >= devices.size())
     throw Unavailable(fmt::format("Vulkan device {}: {}", *index, listing(devices)));
   const std::size_t chosen = index ? *index : choose_named(devices, wanted);

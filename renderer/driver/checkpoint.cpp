@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <set>
 #include <span>
@@ -13,6 +12,7 @@
 #include <vector>
 
 #include "base/file/content_digest.h"
+#include "base/to_number.h"
 #include "renderer/cache/cache_content.h"
 #include "renderer/film/film_samples.h"
 
@@ -114,11 +114,10 @@ const std::string& text_at(const SafetensorsReader& file, const std::string& key
 template <class Number>
 Number number_at(const SafetensorsReader& file, const std::string& key) {
   const std::string& text = text_at(file, key);
-  Number value{};
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size() || !(value >= Number{0}))
+  const std::optional<Number> value = to_number<Number>(text);
+  if (!value || !(*value >= Number{0}))
     file.fail(fmt::format("{}: '{}', expected a number, not negative", key, text));
-  return value;
+  return *value;
 }
 
 using GuardValues = std::array<double, 7>;

@@ -4,13 +4,13 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <span>
 #include <string>
 
 #include "base/file/content_digest.h"
+#include "base/to_number.h"
 
 namespace gatelight::renderer {
 namespace {
@@ -28,10 +28,9 @@ std::optional<Number> number_of(const SafetensorsReader& file, const char* key) 
   const auto found = file.metadata().find(key);
   if (found == file.metadata().end()) return std::nullopt;
   const std::string& text = found->second;
-  Number value{};
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  bool good = error == std::errc() && end == text.data() + text.size();
-  if constexpr (std::is_floating_point_v<Number>) good = good && std::isfinite(value);
+  const std::optional<Number> value = to_number<Number>(text);
+  bool good = value.has_value();
+  if constexpr (std::is_floating_point_v<Number>) good = good && std::isfinite(*value);
   if (!good) file.fail(fmt::format("{}: '{}', expected a finite number", key, text));
   return value;
 }

@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 #include "base/errors.h"
 #include "base/nearest_word.h"
+#include "base/to_number.h"
 #include "renderer/film/framing.h"
 #include "scene/shutter.h"
 
@@ -74,9 +74,8 @@ const scene::Camera& find_named(const scene::Scene& scene, const std::vector<sce
                                   names_of(scene)));
     return *found;
   }
-  std::size_t index = cameras.size();
-  const char* const end = name.data() + name.size();
-  if (std::from_chars(name.data(), end, index).ptr != end || index >= cameras.size())
+  const std::size_t index = to_number<std::size_t>(name).value_or(cameras.size());
+  if (index >= cameras.size())
     throw BadOption(fmt::format("`camera` {}: no such camera in {}; {}{}", name, scene.path, names_of(scene),
                                 meant(scene, name)));
   return cameras[index];
@@ -152,9 +151,8 @@ Box bounds_of(const scene::Scene& scene, const scene::Instance& instance) {
 /// The focus distance in metres along the view direction; 0 if `focus` is empty.
 float focus_distance(const scene::Scene& scene, const std::string& focus, const View& view) {
   if (focus.empty()) return 0.0f;
-  float distance = 0.0f;
-  const char* const end = focus.data() + focus.size();
-  if (std::from_chars(focus.data(), end, distance).ptr != end) {
+  std::optional<float> distance = to_number<float>(focus);
+  if (!distance) {
     Box box;
     for (std::size_t i = 0; i < scene.instances.size(); ++i) {
       if (scene.instances[i].name == focus) box.extend(bounds_of(scene, scene.instances[i]));
@@ -163,13 +161,13 @@ float focus_distance(const scene::Scene& scene, const std::string& focus, const 
       throw BadOption(fmt::format("`focus` {}: no object of {} has this name, expected one or metres", focus,
                                   scene.path));
     distance = (box.center() - view.transform.translation()).dot(-view.transform.linear().col(2));
-    if (!(distance > 0.0f))
+    if (!(*distance > 0.0f))
       throw BadOption(fmt::format("`focus` {}: it is behind the camera '{}'", focus, view.name));
   }
-  if (!(distance > 0.0f && distance <= kFurthest))
+  if (!(*distance > 0.0f && *distance <= kFurthest))
     throw BadOption(
         fmt::format("`focus` {}: expected a node, or metres above 0 and at most {:g}", focus, kFurthest));
-  return distance;
+  return *distance;
 }
 
 void set_lens(const scene::Scene& scene, const LensOptions& lens, float aspect, View& view) {

@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <charconv>
 #include <cmath>
 
 #include "base/finite_float.h"
+#include "base/to_number.h"
 #include "renderer/image/cryptomatte.h"
 
 namespace gatelight::renderer {
@@ -24,9 +24,8 @@ Rule rule_of(const Picture& picture, const std::string& layer) {
 
 /// Parses the samples per pixel of a picture's metadata.
 std::uint64_t samples_per_pixel(const NamedPicture& named, const std::string& text) {
-  std::uint64_t spp = 0;
-  const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), spp);
-  if (error != std::errc() || stop != text.data() + text.size() || spp == 0) {
+  const std::uint64_t spp = to_number<std::uint64_t>(text).value_or(0);
+  if (spp == 0) {
     throw InputError(
         fmt::format("'{}' says it has '{}' samples per pixel, expected a positive number", named.name, text));
   }

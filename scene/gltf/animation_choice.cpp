@@ -4,11 +4,11 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <charconv>
 #include <set>
 #include <string>
 
 #include "base/nearest_word.h"
+#include "base/to_number.h"
 #include "scene/gltf/channels.h"
 #include "scene/gltf/unchecked.h"
 
@@ -35,9 +35,7 @@ std::size_t find_animation(const json& root, const std::string& name, std::strin
   for (const json& animation : list_of(root, "animations")) names.push_back(text_of(animation, "name"));
   if (const auto found = std::find(names.begin(), names.end(), name); found != names.end())
     return static_cast<std::size_t>(found - names.begin());
-  std::size_t index = names.size();
-  const char* const end = name.data() + name.size();
-  if (std::from_chars(name.data(), end, index).ptr == end && index < names.size()) return index;
+  if (const auto index = to_number<std::size_t>(name); index && *index < names.size()) return *index;
 
   std::string known;
   for (std::size_t i = 0; i < names.size(); ++i)

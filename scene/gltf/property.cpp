@@ -3,13 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <map>
 #include <string>
 #include <utility>
 #include <variant>
 #include <vector>
 
+#include "base/to_number.h"
 #include "scene/gltf/schema.h"
 
 namespace gatelight::scene::gltf {
@@ -60,10 +60,8 @@ const Rule* rule_of(Names path) {
 /// The element of a list that a name of a pointer says; null where it is not there.
 template <typename T>
 T* element_named(std::vector<T>& list, std::string_view index) {
-  std::size_t number = list.size();
-  const char* const end = index.data() + index.size();
-  if (std::from_chars(index.data(), end, number).ptr != end || number >= list.size()) return nullptr;
-  return &list[number];
+  const std::size_t number = to_number<std::size_t>(index).value_or(list.size());
+  return number < list.size() ? &list[number] : nullptr;
 }
 
 /// tinygltf has dropped empty objects inside an extension: empty extensions of a texture are made again.
