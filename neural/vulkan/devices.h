@@ -4,8 +4,10 @@
 
 #include <cstdint>
 #include <memory>
+#include <mutex>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace gatelight::neural::vulkan {
@@ -33,6 +35,24 @@ struct ValidationFailed : std::logic_error {
   using std::logic_error::logic_error;
 };
 
+/// What the layer reports, from any thread.
+class ValidationMessages {
+ public:
+  void add(std::string message) {
+    const std::lock_guard lock(mutex_);
+    messages_.push_back(std::move(message));
+  }
+  /// The messages since the last call.
+  std::vector<std::string> take() {
+    const std::lock_guard lock(mutex_);
+    return std::exchange(messages_, {});
+  }
+
+ private:
+  std::mutex mutex_;
+  std::vector<std::string> messages_;
+};
+
 struct MachineOptions {
   /// Index, or part of a name, ignoring case. Empty means the first usable device of the best kind.
   std::string device;
@@ -40,7 +60,7 @@ struct MachineOptions {
   /// environment variable GATELIGHT_VULKAN_VALIDATION also enables this if it is set and not 0.
   bool validate = false;
   /// Receives the layer's messages, including those during destruction; may be null.
-  std::shared_ptr<std::vector<std::string>> messages = nullptr;
+  std::shared_ptr<ValidationMessages> messages = nullptr;
   /// For tests: simulates a lost device after this many submissions. 0 means the value of the environment
   /// variable GATELIGHT_VULKAN_LOSE_AFTER, or never if it is unset.
   std::uint64_t lose_after = 0;

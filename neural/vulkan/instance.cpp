@@ -17,11 +17,11 @@ VKAPI_ATTR VkBool32 VKAPI_CALL take_message(VkDebugUtilsMessageSeverityFlagBitsE
                                             VkDebugUtilsMessageTypeFlagsEXT,
                                             const VkDebugUtilsMessengerCallbackDataEXT* data,
                                             void* messages) {
-  static_cast<std::vector<std::string>*>(messages)->emplace_back(data->pMessage);
+  static_cast<ValidationMessages*>(messages)->add(data->pMessage);
   return VK_FALSE;
 }
 
-vk::DebugUtilsMessengerCreateInfoEXT messenger_info(std::vector<std::string>* messages) {
+vk::DebugUtilsMessengerCreateInfoEXT messenger_info(ValidationMessages* messages) {
   using Severity = vk::DebugUtilsMessageSeverityFlagBitsEXT;
   using Type = vk::DebugUtilsMessageTypeFlagBitsEXT;
   vk::DebugUtilsMessengerCreateInfoEXT info;
@@ -42,7 +42,7 @@ vk::raii::Context open_loader() {
 }
 
 vk::raii::Instance make_instance(const vk::raii::Context& context, bool validate,
-                                 std::vector<std::string>* messages) {
+                                 ValidationMessages* messages) {
   const vk::ApplicationInfo application("gatelight", 1, nullptr, 0, VK_API_VERSION_1_2);
   vk::InstanceCreateInfo info({}, &application);
   const vk::DebugUtilsMessengerCreateInfoEXT messenger = messenger_info(messages);
@@ -75,9 +75,9 @@ DeviceKind kind_of(vk::PhysicalDeviceType type) {
 
 }  // namespace
 
-Instance::Instance(bool validate, std::shared_ptr<std::vector<std::string>> messages)
+Instance::Instance(bool validate, std::shared_ptr<ValidationMessages> messages)
     : validate_(validate),
-      messages_(messages != nullptr ? std::move(messages) : std::make_shared<std::vector<std::string>>()),
+      messages_(messages != nullptr ? std::move(messages) : std::make_shared<ValidationMessages>()),
       context_(open_loader()),
       instance_(make_instance(context_, validate, messages_.get())),
       messenger_(nullptr) {
@@ -96,10 +96,8 @@ std::vector<vk::raii::PhysicalDevice> Instance::devices() const {
 }
 
 void Instance::check_messages() {
-  if (messages_->size() == checked_) return;
-  const std::string& first = (*messages_)[checked_];
-  checked_ = messages_->size();
-  throw ValidationFailed("Vulkan validation: " + first);
+  const std::vector<std::string> messages = messages_->take();
+  if (!messages.empty()) throw ValidationFailed("Vulkan validation: " + messages.front());
 }
 
 DeviceFacts facts_of(const vk::raii::PhysicalDevice& device) {

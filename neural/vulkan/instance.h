@@ -15,7 +15,7 @@ class Instance {
  public:
   /// Throws Unavailable if there is no loader, or if `validate` is set and the layer is missing. `messages`
   /// may be null.
-  Instance(bool validate, std::shared_ptr<std::vector<std::string>> messages);
+  Instance(bool validate, std::shared_ptr<ValidationMessages> messages);
 
   std::vector<vk::raii::PhysicalDevice> devices() const;
   bool validates() const { return validate_; }
@@ -24,8 +24,7 @@ class Instance {
 
  private:
   bool validate_;
-  std::shared_ptr<std::vector<std::string>> messages_;
-  std::size_t checked_ = 0;
+  std::shared_ptr<ValidationMessages> messages_;
   vk::raii::Context context_;
   vk::raii::Instance instance_;
   vk::raii::DebugUtilsMessengerEXT messenger_;

@@ -14,8 +14,8 @@
 namespace gatelight::neural::testing {
 
 /// Messages of the validation layer about all machines of this program.
-inline const std::shared_ptr<std::vector<std::string>>& validation_messages() {
-  static const auto messages = std::make_shared<std::vector<std::string>>();
+inline const std::shared_ptr<vulkan::ValidationMessages>& validation_messages() {
+  static const auto messages = std::make_shared<vulkan::ValidationMessages>();
   return messages;
 }
 
@@ -46,8 +46,7 @@ class OnVulkan : public ::testing::Test {
     if (test_machine() == nullptr) GTEST_SKIP() << "no Vulkan device with a validation layer";
   }
   void TearDown() override {
-    for (const std::string& message : *validation_messages()) ADD_FAILURE() << message;
-    validation_messages()->clear();
+    for (const std::string& message : validation_messages()->take()) ADD_FAILURE() << message;
   }
 };
 
