@@ -17,7 +17,9 @@ VKAPI_ATTR VkBool32 VKAPI_CALL take_message(VkDebugUtilsMessageSeverityFlagBitsE
                                             VkDebugUtilsMessageTypeFlagsEXT,
                                             const VkDebugUtilsMessengerCallbackDataEXT* data,
                                             void* messages) {
-  static_cast<ValidationMessages*>(messages)->add(data->pMessage);
+  std::string message = data->pMessage;
+  std::replace(message.begin(), message.end(), '\n', ' ');  // errors have one line
+  static_cast<ValidationMessages*>(messages)->add(std::move(message));
   return VK_FALSE;
 }
 

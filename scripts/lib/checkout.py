@@ -11,6 +11,7 @@ import script
 from script import ROOT, Failed
 
 CERTIFICATES = "/etc/ssl/certs/ca-certificates.crt"
+COPY = "/etc/ssl/of-the-host.crt"  # the system's own ones are written by its package
 
 
 class System:
@@ -26,10 +27,10 @@ class System:
             if variable in os.environ:
                 self.variables[variable] = "/" + variable.lower()
                 binds[self.variables[variable]] = os.path.abspath(os.environ[variable])
-        if os.path.exists(CERTIFICATES):
-            self.variables["PIP_CERT"] = CERTIFICATES
         # How this machine reaches the network.
         self.variables.update({key: value for key, value in os.environ.items() if key.startswith(("PIP_", "http_proxy", "https_proxy"))})
+        if os.path.exists(CERTIFICATES):
+            self.variables["PIP_CERT"] = COPY
         if ccache:
             binds["/ccache"] = os.path.abspath(ccache)
             self.variables.update(CCACHE_DIR="/ccache", CCACHE_BASEDIR="/gatelight", CCACHE_NOHASHDIR="1",
@@ -47,7 +48,7 @@ class System:
             return
         base = chroot.make_base(self.root, self.name, None, self.archives)
         if os.path.exists(CERTIFICATES):
-            base.copy_in(CERTIFICATES, CERTIFICATES)
+            base.copy_in(CERTIFICATES, COPY)
 
     def call(self, command, log=None, check=True):
         """Runs a shell command in the copy of the source. Returns its output."""

@@ -34,9 +34,27 @@ inline std::shared_ptr<vulkan::Machine> open_test_machine(std::uint64_t longest_
   }
 }
 
+/// Closes the device after the last test. At the end of the program the validation layer destroys its own
+/// data first.
+class MachineOwner : public ::testing::Environment {
+ public:
+  const std::shared_ptr<vulkan::Machine>& get() {
+    if (!opened_) machine_ = open_test_machine();
+    opened_ = true;
+    return machine_;
+  }
+  void TearDown() override { machine_.reset(); }
+
+ private:
+  bool opened_ = false;
+  std::shared_ptr<vulkan::Machine> machine_;
+};
+
+inline MachineOwner& machine_owner =
+    static_cast<MachineOwner&>(*::testing::AddGlobalTestEnvironment(new MachineOwner));
+
 inline const std::shared_ptr<vulkan::Machine>& test_machine() {
-  static const std::shared_ptr<vulkan::Machine> machine = open_test_machine();
-  return machine;
+  return machine_owner.get();
 }
 
 /// Skips without a device; fails if the validation layer has reported a message by the end of the test.
