@@ -45,7 +45,10 @@ void set_device_fractions(benchmark::State& state, double operations, double byt
 }
 
 void limit_rows(benchmark::State& state) {
-  for (auto _ : state) benchmark::DoNotOptimize(limits().bytes_per_second);
+  for (auto _ : state) {
+    double bytes_per_second = limits().bytes_per_second;
+    benchmark::DoNotOptimize(bytes_per_second);
+  }
   state.counters["GFLOP/s"] = limits().operations_per_second / 1e9;
   state.counters["GB/s"] = limits().bytes_per_second / 1e9;
   state.SetLabel(vulkan::machine_name(*shared_machine()));

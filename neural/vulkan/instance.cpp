@@ -13,15 +13,13 @@ namespace {
 constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
 constexpr std::uint32_t kNoFamily = ~0u;
 
-VKAPI_ATTR VkBool32 VKAPI_CALL take_message(VkDebugUtilsMessageSeverityFlagBitsEXT,
-                                            VkDebugUtilsMessageTypeFlagsEXT,
-                                            const VkDebugUtilsMessengerCallbackDataEXT* data,
-                                            void* messages) {
+/// The callback of the validation layer. Its types are those of C or of C++, by the version of the headers.
+constexpr auto take_message = [](auto, auto, const auto* data, void* messages) -> VkBool32 {
   std::string message = data->pMessage;
   std::replace(message.begin(), message.end(), '\n', ' ');  // errors have one line
   static_cast<ValidationMessages*>(messages)->add(std::move(message));
   return VK_FALSE;
-}
+};
 
 vk::DebugUtilsMessengerCreateInfoEXT messenger_info(ValidationMessages* messages) {
   using Severity = vk::DebugUtilsMessageSeverityFlagBitsEXT;
@@ -29,8 +27,7 @@ vk::DebugUtilsMessengerCreateInfoEXT messenger_info(ValidationMessages* messages
   vk::DebugUtilsMessengerCreateInfoEXT info;
   info.messageSeverity = Severity::eWarning | Severity::eError;
   info.messageType = Type::eValidation | Type::ePerformance;
-  // Newer headers have a function type of their own.
-  info.pfnUserCallback = reinterpret_cast<decltype(info.pfnUserCallback)>(take_message);
+  info.pfnUserCallback = take_message;
   info.pUserData = messages;
   return info;
 }

@@ -122,9 +122,8 @@ TEST(Film, CacheLayersHaveTheirPlacesChannelsAndPrecision) {
     EXPECT_EQ(layer.values[layer.channels.size()], all[i].value);
   }
   // They come from the first hit, which costs memory; sample counts do not.
-  const FilmContents counts{.aovs = {Aov::sample_count}};
-  EXPECT_FALSE(Film({0, 0, 1, 1}, 1, 1, counts).needs_first_hits());
-  EXPECT_GT(Film::bytes_per_pixel({.aovs = kCacheAovs}), Film::bytes_per_pixel(counts));
+  EXPECT_FALSE(Film({0, 0, 1, 1}, 1, 1, {.aovs = {Aov::sample_count}}).needs_first_hits());
+  EXPECT_GT(Film::bytes_per_pixel({.aovs = kCacheAovs}), Film::bytes_per_pixel({.aovs = {Aov::sample_count}}));
 }
 
 TEST(Film, HalvesAreTheMeansOfEveryOtherSample) {
