@@ -123,7 +123,8 @@ TEST(Film, CacheLayersHaveTheirPlacesChannelsAndPrecision) {
   }
   // They come from the first hit, which costs memory; sample counts do not.
   EXPECT_FALSE(Film({0, 0, 1, 1}, 1, 1, {.aovs = {Aov::sample_count}}).needs_first_hits());
-  EXPECT_GT(Film::bytes_per_pixel({.aovs = kCacheAovs}), Film::bytes_per_pixel({.aovs = {Aov::sample_count}}));
+  EXPECT_GT(Film::bytes_per_pixel({.aovs = kCacheAovs}),
+            Film::bytes_per_pixel({.aovs = {Aov::sample_count}}));
 }
 
 TEST(Film, HalvesAreTheMeansOfEveryOtherSample) {
