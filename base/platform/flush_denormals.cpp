@@ -5,33 +5,39 @@
 #endif
 
 namespace gatelight {
-namespace {
 
 #if defined(__x86_64__)
-constexpr unsigned kBits = 0x8040;  // flush to zero, denormals are zeros
-unsigned control_word() {
+const std::uint64_t kFlushBits = 0x8040;  // flush to zero, denormals are zeros
+std::uint64_t float_control() {
   return _mm_getcsr();
 }
-void set_control_word(unsigned word) {
-  _mm_setcsr(word);
+void set_float_control(std::uint64_t word) {
+  _mm_setcsr(static_cast<unsigned>(word));
+}
+#elif defined(__aarch64__)
+const std::uint64_t kFlushBits = 1u << 24;  // FZ of the register FPCR, for inputs and results
+std::uint64_t float_control() {
+  std::uint64_t word;
+  asm volatile("mrs %0, fpcr" : "=r"(word));
+  return word;
+}
+void set_float_control(std::uint64_t word) {
+  asm volatile("msr fpcr, %0" : : "r"(word));
 }
 #else
-// Other processors keep their denormals, which costs only time.
-constexpr unsigned kBits = 0;
-unsigned control_word() {
+const std::uint64_t kFlushBits = 0;
+std::uint64_t float_control() {
   return 0;
 }
-void set_control_word(unsigned) {}
+void set_float_control(std::uint64_t) {}
 #endif
 
-}  // namespace
-
-FlushDenormals::FlushDenormals() : before_(control_word()) {
-  set_control_word(before_ | kBits);
+FlushDenormals::FlushDenormals() : before_(float_control()) {
+  set_float_control(before_ | kFlushBits);
 }
 
 FlushDenormals::~FlushDenormals() {
-  set_control_word((control_word() & ~kBits) | (before_ & kBits));
+  set_float_control((float_control() & ~kFlushBits) | (before_ & kFlushBits));
 }
 
 }  // namespace gatelight

@@ -3,7 +3,6 @@
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
-#include <xmmintrin.h>
 
 #include <cstring>
 
@@ -17,18 +16,16 @@ namespace {
 using namespace testing;
 using gatelight::testing::report_extreme;
 
-constexpr unsigned kFlushing = 0x8040;  // FTZ and DAZ
-
 /// Sets the control word of this thread and restores the old one.
 class ControlWord {
  public:
-  explicit ControlWord(bool flushing) : before_(_mm_getcsr()) {
-    _mm_setcsr(flushing ? before_ | kFlushing : before_ & ~kFlushing);
+  explicit ControlWord(bool flushing) : before_(float_control()) {
+    set_float_control(flushing ? before_ | kFlushBits : before_ & ~kFlushBits);
   }
-  ~ControlWord() { _mm_setcsr(before_); }
+  ~ControlWord() { set_float_control(before_); }
 
  private:
-  unsigned before_;
+  std::uint64_t before_;
 };
 
 bool is_denormal(float x) {
@@ -61,20 +58,20 @@ ModelState tiny_state(const Model& model, const TrainingOptions& options) {
 TEST(Denormals, TheControlWordIsRestored) {
   for (const bool flushing : {false, true}) {
     const ControlWord word(flushing);
-    const unsigned before = _mm_getcsr() & kFlushing;
+    const std::uint64_t before = float_control() & kFlushBits;
     {
       const FlushDenormals flush;
-      EXPECT_EQ(_mm_getcsr() & kFlushing, kFlushing);
+      EXPECT_EQ(float_control() & kFlushBits, kFlushBits);
       volatile float least = std::numeric_limits<float>::min();
       EXPECT_EQ(least / 2, 0.0f);
     }
-    EXPECT_EQ(_mm_getcsr() & kFlushing, before);
+    EXPECT_EQ(float_control() & kFlushBits, before);
     const ModelCase c = find_model_case("nrc");
     const auto backend = cpu::make_cpu_backend(c.model, {});
     const OwnedBatch batch = make_batch(*c.model, 3000, 1);
     backend->train(batch.training());
     raw_answers(*backend, *c.model, batch);
-    EXPECT_EQ(_mm_getcsr() & kFlushing, before);
+    EXPECT_EQ(float_control() & kFlushBits, before);
   }
   report_extreme("the caller's control word", "with and without flushing",
                  "the same after a step and answers", "");

@@ -2,13 +2,13 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <xmmintrin.h>
 
 #include <atomic>
 #include <mutex>
 #include <set>
 #include <thread>
 
+#include "base/platform/flush_denormals.h"
 #include "renderer/render.h"
 #include "tests/extremes/extreme.h"
 #include "tests/support/room.h"
@@ -19,8 +19,6 @@ namespace {
 using testing::report_extreme;
 using testing::room;
 
-constexpr unsigned kFlushing = 0x8040;  // FTZ and DAZ
-
 TEST(RendererDenormals, EveryThreadFlushesAndTheCallersControlWordIsKept) {
   const scene::Scene s = room();
   std::size_t most = 0;
@@ -30,21 +28,21 @@ TEST(RendererDenormals, EveryThreadFlushesAndTheCallersControlWordIsKept) {
     options.integrator = integrator;
     options.threads = 4;
     options.spp = spp;
-    const unsigned before = _mm_getcsr();
-    _mm_setcsr(flushing ? before | kFlushing : before & ~kFlushing);
+    const std::uint64_t before = float_control();
+    set_float_control(flushing ? before | kFlushBits : before & ~kFlushBits);
     std::mutex mutex;
     std::set<std::thread::id> threads;
     std::atomic<int> without{0};
     Renderer renderer(s, options);
     // Called by the thread that has finished a tile.
     const Picture picture = renderer.render({.stop = [&] {
-      if ((_mm_getcsr() & kFlushing) != kFlushing) ++without;
+      if ((float_control() & kFlushBits) != kFlushBits) ++without;
       const std::lock_guard lock(mutex);
       threads.insert(std::this_thread::get_id());
       return false;
     }});
-    EXPECT_EQ(_mm_getcsr() & kFlushing, flushing ? kFlushing : 0u);
-    _mm_setcsr(before);
+    EXPECT_EQ(float_control() & kFlushBits, flushing ? kFlushBits : std::uint64_t{0});
+    set_float_control(before);
     EXPECT_EQ(without, 0);
     most = std::max(most, threads.size());
     return picture.layers[0].values;
