@@ -111,8 +111,9 @@ double lit_radiance(const scene::Scene& scene) {
     const Vec3 d = to_lamp / std::sqrt(squared);
     float cos_lamp = -lamp.normal.dot(d);
     if (lamp.material->double_sided) cos_lamp = std::abs(cos_lamp);
-    const float cos_point = std::abs(point.normal.dot(d));
-    if (!(cos_lamp > 0.0f)) continue;
+    float cos_point = point.normal.dot(d);  // nobody sees the inside of a ball
+    if (point.material->double_sided) cos_point = std::abs(cos_point);
+    if (!(cos_lamp > 0.0f && cos_point > 0.0f)) continue;
     // A point that the lamp nearly touches is at most as bright as the lamp.
     const double each = lamps.total() * static_cast<double>(cos_lamp * cos_point / (kPi * squared));
     sum += std::min(each, radiance[static_cast<std::size_t>(lamp.material - scene.materials.data())]);

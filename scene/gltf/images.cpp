@@ -122,7 +122,8 @@ Image load_image(const Document& document, int index, const ImageOptions& option
   try {
     image = read(document, source, where, name, options.normal_map, warnings);
   } catch (const InputError& e) {
-    if (options.missing_is_error) throw;
+    if (options.missing_is_error)
+      throw InputError(fmt::format("{}; `missing` white renders without it", e.what()));
     warnings.add(fmt::format("{}; white instead", e.what()));
     image = {"", 1, 1, 3, {255, 255, 255}};
   }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -61,17 +62,28 @@ bool is_version_2(std::string_view version) {
                             version.find_first_not_of("0123456789", 2) == std::string_view::npos);
 }
 
+/// The version that a file says it has.
+std::optional<std::string> said_version(const json& asset) {
+  const auto version = asset.find("version");
+  if (version == asset.end()) return std::nullopt;
+  if (version->is_number()) return fmt::format("{:.1f}", version->get<double>());
+  return version->is_string() ? std::optional(version->get<std::string>()) : std::nullopt;
+}
+
 /// Before all else: lists of other versions have another form.
 void check_version(json& root, std::string_view file, Warnings& warnings) {
   json& asset = root["asset"];
   if (!asset.is_object()) asset = json::object();
-  const auto version = asset.find("version");
-  if (version == asset.end() || !version->is_string()) {
+  const std::optional<std::string> version = said_version(asset);
+  if (version && !is_version_2(*version)) {
+    const char* const help =
+        version->starts_with('1') ? " ('assimp export FILE.gltf NEW.glb -f glb2' converts it)" : "";
+    throw make_error(file, "asset.version", fmt::format("'{}', expected 2.0{}", *version, help));
+  }
+  if (!asset.contains("version") || !asset["version"].is_string()) {
     if (!root.contains("nodes")) throw make_error(file, "asset.version", "missing, expected glTF 2.0");
     warnings.add("asset.version: missing, taken as 2.0");
     asset["version"] = "2.0";
-  } else if (const std::string& text = version->get_ref<const std::string&>(); !is_version_2(text)) {
-    throw make_error(file, "asset.version", fmt::format("'{}', expected 2.0", text));
   }
   const auto least = asset.find("minVersion");
   if (least != asset.end() && *least != "2.0") {

@@ -288,8 +288,8 @@ INSTANTIATE_TEST_SUITE_P(
         Damage{"/scenes/0/nodes/0", 5, "scenes[0].nodes[0]"},
         Damage{"/cameras/0/perspective/yfov", 0, "yfov"}, Damage{"/cameras/0/perspective/yfov", 4, "yfov"},
         Damage{"/cameras/0/type", "fisheye", "type"}, Damage{"/asset/version", "1.0", "asset.version"},
-        Damage{"/asset/minVersion", "2.1", "minVersion"}, Damage{"/accessors/0", "text", "accessors[0]"},
-        Damage{"/nodes", 5, "nodes"}));
+        Damage{"/asset/version", 1, "assimp export"}, Damage{"/asset/minVersion", "2.1", "minVersion"},
+        Damage{"/accessors/0", "text", "accessors[0]"}, Damage{"/nodes", 5, "nodes"}));
 
 TEST(Accessors, NonFinitePositionsAreRefused) {
   for (const float bad : {std::numeric_limits<float>::infinity(), std::numeric_limits<float>::quiet_NaN()}) {

@@ -33,6 +33,24 @@ TEST(SoftSky, OnlyScenesWithReflectingSurfacesAndWithoutLightsNeedIt) {
   EXPECT_TRUE(needs_light(builder.scene())) << "one surface is unlit, the other is not";
 }
 
+// A surface of 1 m stands 1 m before a glowing one.
+TEST(SoftSky, WhatGlowsLightsTheSidesThatMaterialsHave) {
+  const auto needs = [](bool towards, bool double_sided) {
+    SceneBuilder builder;
+    scene::Material label = SceneBuilder::lambert(Color::Zero());
+    label.emission = Color::Ones();
+    builder.quad(builder.material(label), Vec3(0, 0, -1), Vec3(1, 0, 0), Vec3(0, 1, 0));
+    scene::Material clay = SceneBuilder::lambert(Color::Ones());
+    clay.double_sided = double_sided;
+    const Vec3 x = towards ? Vec3(0, 1, 0) : Vec3(1, 0, 0), y = towards ? Vec3(1, 0, 0) : Vec3(0, 1, 0);
+    builder.quad(builder.material(clay), Vec3::Zero(), x, y);
+    return needs_light(builder.scene());
+  };
+  EXPECT_FALSE(needs(true, false));
+  EXPECT_TRUE(needs(false, false));
+  EXPECT_FALSE(needs(false, true));
+}
+
 TEST(SoftSky, MakesWhiteSurfacesNeitherDarkNorOverexposed) {
   EnvironmentOptions options;
   options.automatic = true;
