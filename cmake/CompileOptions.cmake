@@ -3,6 +3,7 @@ add_library(gatelight_compile_options INTERFACE)
 target_compile_features(gatelight_compile_options INTERFACE cxx_std_20)
 target_compile_options(gatelight_compile_options INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wno-missing-field-initializers
+  -Wno-overlength-strings  # the page of the window is one
   # The same source must give the same bits for every instruction set.
   -ffp-contract=off
   # No code reads errno after a math call, and no floating-point exception is trapped.

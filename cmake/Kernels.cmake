@@ -7,7 +7,7 @@ if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64)$")
   list(APPEND GATELIGHT_KERNEL_ISAS avx2 avx512)
   set(GATELIGHT_KERNEL_FLAGS_avx2 -mavx2 -mfma -mf16c)
   set(GATELIGHT_KERNEL_FLAGS_avx512 -mavx512f -mavx512dq -mavx512bw -mavx512vl -mfma -mf16c
-    -mprefer-vector-width=512 -Wno-uninitialized -Wno-maybe-uninitialized)  # gcc 12 warns of its own headers
+    -mprefer-vector-width=512 -Wno-uninitialized $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)  # gcc 12 warns of its own headers
 endif()
 
 # gatelight_add_kernels(<target> <prefix> <source> TABLE <name> ISA <isa> [FLAGS <flag>...])

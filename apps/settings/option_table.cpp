@@ -87,10 +87,10 @@ void add_load_options(OptionGroup& group, scene::LoadOptions& load) {
        .unit = "NAME=off|X|r,g,b;...",
        .help = "Lights and emissive materials of the file, by name, switched off or multiplied; a '*' at the "
                "end of a name fits any ending, and the last that fits a light counts: \"*=off;lamp=2\"",
-       .value = [&lights = lights]() -> OptionValue {
-         return lights.empty() ? OptionValue() : text_of(lights);
+       .value = [&chosen = lights]() -> OptionValue {
+         return chosen.empty() ? OptionValue() : text_of(chosen);
        },
-       .read = [&lights = lights](const std::string& text) { lights = read_lights("--lights", text); },
+       .read = [&chosen = lights](const std::string& text) { chosen = read_lights("--lights", text); },
        .in_sweep = SweepUse::scene});
   group.add(
       {.name = "ies",
@@ -99,10 +99,10 @@ void add_load_options(OptionGroup& group, scene::LoadOptions& load) {
            "Profiles of IES files (LM-63, type C) for point and spot lights of the file, by name as in "
            "--lights. The light aims along its node's -z, keeps its intensity in the brightest direction, "
            "and loses its cone",
-       .value = [&profiles = profiles]() -> OptionValue {
-         return profiles.empty() ? OptionValue() : text_of(profiles);
+       .value = [&chosen = profiles]() -> OptionValue {
+         return chosen.empty() ? OptionValue() : text_of(chosen);
        },
-       .read = [&profiles = profiles](const std::string& text) { profiles = read_profiles("--ies", text); },
+       .read = [&chosen = profiles](const std::string& text) { chosen = read_profiles("--ies", text); },
        .in_sweep = SweepUse::scene});
   group.add(of_scene(choice("missing", missing_is_error, kMissing, "When a texture cannot be read")));
   group.add(external_option(allow_external));
@@ -111,11 +111,11 @@ void add_load_options(OptionGroup& group, scene::LoadOptions& load) {
        .unit = "NAME,...",
        .help =
            "Extensions of glTF that the file may require although they are not supported: they are left out",
-       .value = [&ignored = ignored]() -> OptionValue {
-         return ignored.empty() ? OptionValue() : fmt::format("{}", fmt::join(ignored, ","));
+       .value = [&chosen = ignored]() -> OptionValue {
+         return chosen.empty() ? OptionValue() : fmt::format("{}", fmt::join(chosen, ","));
        },
-       .read = [&ignored =
-                    ignored](const std::string& text) { ignored = split_list("--ignore-required", text); },
+       .read = [&chosen =
+                    ignored](const std::string& text) { chosen = split_list("--ignore-required", text); },
        .in_sweep = SweepUse::scene});
 }
 
@@ -123,15 +123,15 @@ void add_frame_options(OptionGroup& group, FrameSettings& frames) {
   auto& [range, fps, turntable, shutter, film, groups] = frames;
   const auto add = [&](Option option) {
     const auto value = std::move(option.value);
-    option.value = [value, &range = range]() -> OptionValue { return range ? value() : OptionValue(); };
+    option.value = [value, &chosen = range]() -> OptionValue { return chosen ? value() : OptionValue(); };
     group.add(not_in_sweep(std::move(option)));
   };
   add(common(
       {.name = "frames",
        .unit = "A:B[:STEP]",
        .help = "Frames to render, each to its own file: -o frame-%04d.exr, #### or {frame}",
-       .value = [&range = range]() -> OptionValue { return text_of(*range); },
-       .read = [&range = range](const std::string& text) { range = parse_frames("--frames", text); }}));
+       .value = [&chosen = range]() -> OptionValue { return text_of(*chosen); },
+       .read = [&chosen = range](const std::string& text) { chosen = parse_frames("--frames", text); }}));
   add(number("fps", fps, kFps, "N", "Frames of a second: frame n shows the time n / N"));
   add(number("turntable", turntable, kTurns, "N",
              "The camera goes around what it looks at, once in N frames; alone it renders these"));
@@ -140,11 +140,10 @@ void add_frame_options(OptionGroup& group, FrameSettings& frames) {
        .unit = "OPEN:CLOSE",
        .help = "Motion blur: the shutter is open from a frame's time plus OPEN to that plus CLOSE, both in "
                "frames of --fps; -0.25:0.25 is a shutter of 180 degrees",
-       .value = [&shutter = shutter]() -> OptionValue {
-         return shutter.is_open() ? text_of(shutter) : OptionValue();
+       .value = [&chosen = shutter]() -> OptionValue {
+         return chosen.is_open() ? text_of(chosen) : OptionValue();
        },
-       .read = [&shutter =
-                    shutter](const std::string& text) { shutter = parse_shutter("--shutter", text); }}));
+       .read = [&chosen = shutter](const std::string& text) { chosen = parse_shutter("--shutter", text); }}));
   group.add(in_recipe(not_in_sweep(any_word("preview-video", film, "FILE",
                                             "Film of the frames at --fps, .mp4, .mkv, .mov, .webm or .gif, "
                                             "made at the end by an installed ffmpeg")),

@@ -53,8 +53,8 @@ void read_view_file(RenderSettings& settings) {
   std::vector<Option> table = option_table(settings);
   std::erase_if(table, [](const Option& option) { return !option.of_view; });
   for (const auto& [name, value] : view.items()) {
-    const auto option =
-        std::find_if(table.begin(), table.end(), [&name = name](const Option& o) { return o.name == name; });
+    const auto option = std::find_if(table.begin(), table.end(),
+                                     [&wanted = name](const Option& o) { return o.name == wanted; });
     if (option == table.end()) {
       std::vector<std::string> names;
       for (const Option& o : table) names.push_back(o.name);

@@ -40,9 +40,9 @@ std::string reference_text(const std::vector<Configuration>& group, const std::v
   if (others.empty()) return first.reference;
   std::string text;
   for (const auto& [axis, value] : first.axes) {
-    const auto has = [&, &axis = axis, &value = value](const Configuration& c) {
-      const std::string* of_other = find_flag(c.axes, axis);
-      return of_other && *of_other == value;
+    const auto has = [&the_axis = axis, &the_value = value](const Configuration& c) {
+      const std::string* of_other = find_flag(c.axes, the_axis);
+      return of_other && *of_other == the_value;
     };
     const bool of_all = std::all_of(group.begin(), group.end(), has);
     if (of_all && std::none_of(others.begin(), others.end(), [&](const Configuration* c) { return has(*c); }))

@@ -13,7 +13,7 @@ namespace gatelight::neural {
 namespace {
 
 constexpr std::size_t kSmallMesh = 1 << 20;  // triangles; one thread is faster below
-using Range = tbb::blocked_range<std::size_t>;
+using IndexRange = tbb::blocked_range<std::size_t>;
 
 void add_corners(MeshTopology& topology) {
   if (!topology.corners)
@@ -50,21 +50,21 @@ void list_edges(const MeshTopology& topology, std::uint32_t vertex, std::vector<
 MeshTopology number_vertices(const SurfaceMesh& mesh) {
   MeshTopology topology;
   std::vector<std::uint32_t> numbers(mesh.positions.size(), 0);
-  const Range triangles(0, mesh.triangles.size(), kGrain);
-  tbb::parallel_for(triangles, [&](const Range& range) {
+  const IndexRange triangles(0, mesh.triangles.size(), kGrain);
+  tbb::parallel_for(triangles, [&](const IndexRange& range) {
     for (std::size_t t = range.begin(); t != range.end(); ++t)
       for (const std::uint32_t v : mesh.triangles[t])
         std::atomic_ref(numbers[v]).store(1, std::memory_order_relaxed);
   });
   inclusive_prefix_sum(numbers);  // for a used position: the vertex's number plus one
   topology.vertices.resize(numbers.empty() ? 0 : numbers.back());
-  tbb::parallel_for(Range(0, numbers.size(), kGrain), [&](const Range& range) {
+  tbb::parallel_for(IndexRange(0, numbers.size(), kGrain), [&](const IndexRange& range) {
     for (std::size_t p = range.begin(); p != range.end(); ++p)
       if (numbers[p] != (p == 0 ? 0 : numbers[p - 1]))
         topology.vertices[numbers[p] - 1] = static_cast<std::uint32_t>(p);
   });
   topology.triangles.resize(mesh.triangles.size());
-  tbb::parallel_for(triangles, [&](const Range& range) {
+  tbb::parallel_for(triangles, [&](const IndexRange& range) {
     for (std::size_t t = range.begin(); t != range.end(); ++t)
       for (int c = 0; c < 3; ++c) topology.triangles[t][c] = numbers[mesh.triangles[t][c]] - 1;
   });
@@ -77,7 +77,7 @@ void add_edges(MeshTopology& topology) {
   const std::size_t vertex_count = topology.vertices.size();
   std::vector<std::uint32_t> ends(vertex_count + 1, 0);  // after the sum: the number of edges before vertex v
   const auto for_vertices = [&](const auto& body) {
-    tbb::parallel_for(Range(0, vertex_count, kGrain), [&](const Range& range) {
+    tbb::parallel_for(IndexRange(0, vertex_count, kGrain), [&](const IndexRange& range) {
       std::vector<HalfEdge> edges;
       for (std::size_t v = range.begin(); v != range.end(); ++v) {
         list_edges(topology, static_cast<std::uint32_t>(v), edges);
@@ -113,7 +113,7 @@ void add_normals(MeshTopology& topology, const SurfaceMesh& mesh) {
     return;
   }
   add_corners(topology);
-  tbb::parallel_for(Range(0, topology.vertices.size(), kGrain), [&](const Range& range) {
+  tbb::parallel_for(IndexRange(0, topology.vertices.size(), kGrain), [&](const IndexRange& range) {
     for (std::size_t v = range.begin(); v != range.end(); ++v) {
       const VertexCorners& around = *topology.corners;
       Double3 sum = {0, 0, 0};

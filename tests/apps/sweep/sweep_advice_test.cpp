@@ -7,6 +7,7 @@
 #include "apps/sweep/advise.h"
 #include "apps/sweep/results.h"
 #include "apps/terminal/errors.h"
+#include "tests/support/messages.h"
 
 namespace gatelight::apps {
 namespace {

@@ -8,6 +8,7 @@
 #include "apps/terminal/errors.h"
 #include "apps/terminal/version.h"
 #include "renderer/image/image_write.h"
+#include "renderer/settings/resolved_options.h"
 #include "tests/apps/sweep/sweep_records.h"
 #include "tests/support/temporary_folder.h"
 
