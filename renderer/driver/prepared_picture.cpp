@@ -93,7 +93,7 @@ std::string sky_warning(const scene::Scene& scene, const RenderOptions& options)
 
 /// The warning with the flags of the chosen view, where the file has no camera; else empty.
 std::string made_view(const scene::Scene& scene, const CameraOptions& options, const scene::Camera& view) {
-  if (!scene.cameras.empty() || options.look_at) return "";
+  if (!scene.cameras.empty() || options.look_at || scene.instances.empty()) return "";
   const Vec3 eye = view.transform.translation() + scene.origin;
   const Vec3 target =
       eye - view.transform.linear().col(2) * (view.transform.translation() - scene.bounds.center()).norm();
