@@ -72,6 +72,9 @@ TEST(DarkScenes, AFileWithoutACameraGivesAWarning) {
   expect_messages(render(box, options).warnings, {{"built.glb", "no camera", "`eye`", "`target`"}});
   box.cameras.emplace_back().transform.translation() = Vec3(0, 0, 5);
   EXPECT_TRUE(render(box, options).warnings.empty());
+  scene::Scene empty;
+  empty.path = "empty.glb";
+  expect_messages(render(empty, options).warnings, {{"empty.glb", "sees nothing", "100 %"}});
 }
 
 TEST(DarkScenes, ACameraThatSeesNothingOrBackFacesGivesAWarning) {
