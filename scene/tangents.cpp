@@ -160,13 +160,14 @@ class Generator {
     } while (belongs(c) && c != first);
   }
 
-  /// The corner's angle, seen along the normal.
+  /// The corner's angle, seen along the normal. Arctangents of floats differ between C libraries, and with
+  /// them would the fingerprint of the scene; those of doubles have the same float.
   float projected_angle(std::uint32_t corner, const Vec3& normal) {
     const Vec3& p = mesh_.positions[vertex(corner)];
     const Vec3 a = project(mesh_.positions[vertex(next_corner(corner))] - p, normal);
     const Vec3 b = project(mesh_.positions[vertex(previous_corner(corner))] - p, normal);
     if (a.isZero(0.0f) || b.isZero(0.0f)) return 0.5f * kPi;  // an edge along the normal
-    return std::atan2(a.cross(b).norm(), a.dot(b));
+    return static_cast<float>(std::atan2(double{a.cross(b).norm()}, double{a.dot(b)}));
   }
 
   /// The tangent of the group's corners.
