@@ -146,8 +146,8 @@ const int render_registered = [] {
         {"camera", &Log::camera}, {"bounce", &Log::bounce}, {"shadow", &Log::shadow}};
     for (const auto& [kind, member] : kinds) {
       for (const std::string way : {"/single", "/packet16", "/fast"}) {
-        add(std::string("replay/") + kind + way, [which, member = member, way](benchmark::State& s) {
-          replay(s, *which, member, way != "/single", way == "/fast" ? Watertight::fast : Watertight::robust);
+        add(std::string("replay/") + kind + way, [which, rays = member, way](benchmark::State& s) {
+          replay(s, *which, rays, way != "/single", way == "/fast" ? Watertight::fast : Watertight::robust);
         });
       }
     }

@@ -113,7 +113,7 @@ const int shading_registered = [] {
          {std::pair("lights", &ShadingKernels::sample_lights), std::pair("scatter", &ShadingKernels::scatter),
           std::pair("albedo", &ShadingKernels::albedo)}) {
       benchmark::RegisterBenchmark(("shading/" + std::string(what) + "/" + name).c_str(),
-                                   [name, kernel = kernel](benchmark::State& s) { run(s, name, kernel); });
+                                   [name, chosen = kernel](benchmark::State& s) { run(s, name, chosen); });
     }
   }
   return 0;

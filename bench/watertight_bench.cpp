@@ -105,7 +105,7 @@ const int watertight_registered = [] {
       for (const bool to_edges : {false, true}) {
         benchmark::RegisterBenchmark(
             (std::string("watertight/") + name + "/" + shape + (to_edges ? "/edges" : "/any")).c_str(),
-            [=, watertight = watertight](benchmark::State& s) { leaks(s, shape, to_edges, watertight); })
+            [=, chosen = watertight](benchmark::State& s) { leaks(s, shape, to_edges, chosen); })
             ->Unit(benchmark::kMillisecond);
       }
     }

@@ -97,9 +97,7 @@ class Search {
     return true;
   }
   /// The plan of the last density that fitted.
-  LayoutPlan plan() {
-    return plan_ ? std::move(*plan_) : *make_plan(scene_, fitting_, limit_);
-  }
+  LayoutPlan plan() { return plan_ ? std::move(*plan_) : *make_plan(scene_, fitting_, limit_); }
 
  private:
   PlanScene& scene_;

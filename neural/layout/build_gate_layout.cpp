@@ -1,7 +1,6 @@
 #include "neural/layout/build_gate_layout.h"
 
 #include <fmt/format.h>
-#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -10,6 +9,7 @@
 
 #include "base/errors.h"
 #include "neural/layout/budget.h"
+#include "neural/layout/index_range.h"
 #include "neural/layout/layout_checks.h"
 #include "neural/layout/mesh_colors.h"
 #include "neural/layout/plan.h"
@@ -17,8 +17,6 @@
 namespace gatelight::neural {
 
 namespace {
-
-using Range = tbb::blocked_range<std::size_t>;
 
 /// Hands out consecutive blocks of indices, starting at 0.
 class Allocator {
@@ -112,7 +110,7 @@ struct RowPart {
 void write_rows(const TopologyTable& table, std::size_t triangles, std::span<const RowPart> parts,
                 std::uint32_t* topology) {
   const std::uint32_t stride = table.stride();
-  tbb::parallel_for(Range(0, triangles, 16384), [&](const Range& range) {
+  tbb::parallel_for(IndexRange(0, triangles, 16384), [&](const IndexRange& range) {
     for (std::size_t t = range.begin(); t != range.end(); ++t) {
       std::uint32_t* const row = topology + table.offset + t * stride;
       for (const RowPart& part : parts)
@@ -172,7 +170,7 @@ void number_instance(const PlanScene& scene, const LayoutPlan& plan, const Topol
     parts[i].numbers = number(i);
     if (finest == parts.size()) continue;
     std::vector<std::uint32_t> of_vertices(parts[finest].numbers.size());
-    tbb::parallel_for(Range(0, of_vertices.size(), 16384), [&](const Range& range) {
+    tbb::parallel_for(IndexRange(0, of_vertices.size(), 16384), [&](const IndexRange& range) {
       for (std::size_t v = range.begin(); v != range.end(); ++v)
         of_vertices[v] = parts[i].numbers[parts[finest].numbers[v]];
     });

@@ -1,6 +1,5 @@
 #include "neural/layout/clusters.h"
 
-#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -10,6 +9,7 @@
 
 #include "base/random.h"
 #include "neural/layout/cluster_table.h"
+#include "neural/layout/index_range.h"
 #include "neural/layout/prefix_sum.h"
 
 namespace gatelight::neural {
@@ -17,7 +17,6 @@ namespace gatelight::neural {
 namespace {
 
 constexpr std::size_t kClusterGrain = 4096;
-using Range = tbb::blocked_range<std::size_t>;
 
 /// Shifts cell boundaries away from multiples of the cell size, so that rounding does not split planes at
 /// round coordinates.
@@ -95,7 +94,7 @@ bool insert_vertices(std::span<const ClusterInstance> instances, const ClusterGr
   std::atomic<bool> over = false;
   tbb::parallel_for(std::size_t{0}, instances.size(), [&](std::size_t i) {
     const ClusterKeys key(instances[i], grid);
-    tbb::parallel_for(Range(0, vertex_count(instances[i]), kClusterGrain), [&](const Range& range) {
+    tbb::parallel_for(IndexRange(0, vertex_count(instances[i]), kClusterGrain), [&](const IndexRange& range) {
       if (over.load(std::memory_order_relaxed)) return;
       std::uint64_t fresh = 0;
       for (std::size_t v = range.begin(); v != range.end(); ++v) {
@@ -159,15 +158,15 @@ std::vector<std::vector<std::uint32_t>> number_clusters(std::span<const ClusterI
     return ~first_vertices[slots[vertex]].load(std::memory_order_relaxed);
   };
   std::vector<std::uint32_t> numbers(slots.size());
-  const Range vertices(0, numbers.size(), kClusterGrain);
-  tbb::parallel_for(vertices, [&](const Range& range) {
+  const IndexRange vertices(0, numbers.size(), kClusterGrain);
+  tbb::parallel_for(vertices, [&](const IndexRange& range) {
     for (std::size_t v = range.begin(); v != range.end(); ++v) numbers[v] = first_vertex(v) == v ? 1 : 0;
   });
   inclusive_prefix_sum(numbers);  // at a cluster's first vertex: the cluster's number plus one
   std::vector<std::vector<std::uint32_t>> result(instances.size());
   tbb::parallel_for(std::size_t{0}, instances.size(), [&](std::size_t i) {
     result[i].resize(offsets[i + 1] - offsets[i]);
-    tbb::parallel_for(Range(0, result[i].size(), kClusterGrain), [&](const Range& range) {
+    tbb::parallel_for(IndexRange(0, result[i].size(), kClusterGrain), [&](const IndexRange& range) {
       for (std::size_t v = range.begin(); v != range.end(); ++v)
         result[i][v] = numbers[first_vertex(offsets[i] + v)] - 1;
     });

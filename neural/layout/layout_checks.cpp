@@ -1,7 +1,6 @@
 #include "neural/layout/layout_checks.h"
 
 #include <fmt/format.h>
-#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_reduce.h>
 
@@ -13,6 +12,7 @@
 
 #include "base/errors.h"
 #include "base/require.h"
+#include "neural/layout/index_range.h"
 
 namespace gatelight::neural {
 
@@ -24,14 +24,12 @@ void require_positive(const char* what, float value) {
   require(value > 0.0f && std::isfinite(value), what, value, "a positive number");
 }
 
-using Range = tbb::blocked_range<std::size_t>;
-
 /// The first bad index below count, or kNotFound.
 template <class Bad>
 std::size_t find_first(std::size_t count, const Bad& bad) {
   return tbb::parallel_reduce(
-      Range(0, count, 16384), kNotFound,
-      [&](const Range& range, std::size_t first) {
+      IndexRange(0, count, 16384), kNotFound,
+      [&](const IndexRange& range, std::size_t first) {
         for (std::size_t i = range.begin(); i != range.end() && i < first; ++i)
           if (bad(i)) return i;
         return first;

@@ -1,11 +1,11 @@
 #include "neural/layout/mesh_topology.h"
 
-#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_sort.h>
 
 #include <atomic>
 
+#include "neural/layout/index_range.h"
 #include "neural/layout/prefix_sum.h"
 
 namespace gatelight::neural {
@@ -13,7 +13,6 @@ namespace gatelight::neural {
 namespace {
 
 constexpr std::size_t kSmallMesh = 1 << 20;  // triangles; one thread is faster below
-using IndexRange = tbb::blocked_range<std::size_t>;
 
 void add_corners(MeshTopology& topology) {
   if (!topology.corners)

@@ -1,11 +1,11 @@
 #include "neural/layout/vertex_corners.h"
 
-#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_sort.h>
 
 #include <atomic>
 
+#include "neural/layout/index_range.h"
 #include "neural/layout/prefix_sum.h"
 
 namespace gatelight::neural {
@@ -15,15 +15,14 @@ VertexCorners build_vertex_corners(std::span<const TriangleCorners> triangles, s
   result.offsets.assign(vertex_count + std::size_t{1}, 0);
   result.corners.resize(3 * triangles.size());
   std::vector<std::uint32_t>& offsets = result.offsets;
-  using Range = tbb::blocked_range<std::size_t>;
   // The sums are the ends of the lists; the scatter counts each down to its beginning.
-  tbb::parallel_for(Range(0, triangles.size(), kGrain), [&](const Range& range) {
+  tbb::parallel_for(IndexRange(0, triangles.size(), kGrain), [&](const IndexRange& range) {
     for (std::size_t t = range.begin(); t != range.end(); ++t)
       for (const std::uint32_t v : triangles[t])
         std::atomic_ref(offsets[v]).fetch_add(1, std::memory_order_relaxed);
   });
   inclusive_prefix_sum(offsets);
-  tbb::parallel_for(Range(0, triangles.size(), kGrain), [&](const Range& range) {
+  tbb::parallel_for(IndexRange(0, triangles.size(), kGrain), [&](const IndexRange& range) {
     for (std::size_t t = range.begin(); t != range.end(); ++t)
       for (std::uint32_t c = 0; c < 3; ++c) {
         const std::uint32_t slot =
@@ -32,7 +31,7 @@ VertexCorners build_vertex_corners(std::span<const TriangleCorners> triangles, s
       }
   });
   // The order of the scatter depends on the threads, so the lists are sorted.
-  tbb::parallel_for(Range(0, vertex_count, kGrain), [&](const Range& range) {
+  tbb::parallel_for(IndexRange(0, vertex_count, kGrain), [&](const IndexRange& range) {
     for (std::size_t v = range.begin(); v != range.end(); ++v) {
       tbb::parallel_sort(result.corners.begin() + offsets[v], result.corners.begin() + offsets[v + 1]);
     }

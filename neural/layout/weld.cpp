@@ -1,4 +1,3 @@
-#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include <fmt/format.h>
@@ -12,6 +11,7 @@
 
 #include "base/errors.h"
 #include "base/random.h"
+#include "neural/layout/index_range.h"
 #include "neural/layout/surface_layout.h"
 
 namespace gatelight::neural {
@@ -44,8 +44,7 @@ std::vector<std::uint32_t> weld_vertices(std::span<const Float3> positions) {
   std::vector<std::atomic<std::uint64_t>> slots(std::bit_ceil(positions.size() + positions.size() / 2 + 1));
   const std::uint64_t mask = slots.size() - 1;
   std::vector<std::uint32_t> first(positions.size());
-  using Range = tbb::blocked_range<std::size_t>;
-  tbb::parallel_for(Range(0, positions.size(), 8192), [&](const Range& range) {
+  tbb::parallel_for(IndexRange(0, positions.size(), 8192), [&](const IndexRange& range) {
     for (std::size_t i = range.begin(); i != range.end(); ++i) {
       const Bits bits = position_bits(positions[i]);
       const std::uint64_t key = hash(bits);
@@ -65,7 +64,7 @@ std::vector<std::uint32_t> weld_vertices(std::span<const Float3> positions) {
       }
     }
   });
-  tbb::parallel_for(Range(0, positions.size(), 8192), [&](const Range& range) {
+  tbb::parallel_for(IndexRange(0, positions.size(), 8192), [&](const IndexRange& range) {
     for (std::size_t i = range.begin(); i != range.end(); ++i)
       first[i] = static_cast<std::uint32_t>(slots[first[i]].load(std::memory_order_relaxed)) - 1;
   });
