@@ -44,8 +44,11 @@ struct Agreement {
   int same = 0;
   int other = 0;         ///< another light, by a random number at the border between two
   int other_number = 0;  ///< in the same direction
+  int rough = 0;  ///< a difference above kClose: few digits, as of a cosine near 0 or at the edge of a cone
   double worst = 0.0;
 };
+
+constexpr double kClose = 5e-3;
 
 LightSample sample(const LitScene& lit, const LanePoint& p, bool delta) {
   const float choice = p.sampler.get_1d(p.dimensions + 2);
@@ -91,10 +94,11 @@ Agreement compare(const LitScene& lit, std::uint64_t seed, SamplerKind kind = Sa
       }
       ++agreement.same;
       if (!has) continue;
+      double worst = 0.0;
       const auto meet = [&](float a, float b) {
         if (a == b) return;
         const float difference = std::abs(a - b) / std::max(std::abs(a), std::abs(b));
-        agreement.worst = std::max(agreement.worst, static_cast<double>(difference));
+        worst = std::max(worst, static_cast<double>(difference));
       };
       EXPECT_EQ(result.light_is_delta[lane] != 0, expected.delta);
       if (!delta && result.light[lane] != expected.light) ++agreement.other_number;
@@ -103,18 +107,21 @@ Agreement compare(const LitScene& lit, std::uint64_t seed, SamplerKind kind = Sa
       meet(result.light_cosine[lane], expected.cosine);
       meet(result.light_offset[lane], expected.offset);
       for (int c = 0; c < 3; ++c) meet(result.light_radiance[c][lane], expected.radiance[c]);
+      if (worst > kClose) ++agreement.rough;
+      agreement.worst = std::max(agreement.worst, worst);
     }
   }
-  std::printf("%d lanes agree, %d chose another light, worst difference %.2e\n", agreement.same,
-              agreement.other, agreement.worst);
+  std::printf("%d lanes agree, %d of them roughly, %d chose another light, worst difference %.2e\n",
+              agreement.same, agreement.rough, agreement.other, agreement.worst);
   return agreement;
 }
 
-void expect_agreement(const Agreement& a, double worst = 5e-3) {
+void expect_agreement(const Agreement& a) {
   EXPECT_GT(a.same, 1000);
   EXPECT_LT(a.other, 1e-3 * a.same);
   EXPECT_LT(a.other_number, 1e-3 * a.same);
-  EXPECT_LT(a.worst, worst);
+  EXPECT_LT(a.rough, 1e-3 * a.same);
+  EXPECT_LT(a.worst, 0.1);
 }
 
 TEST(LightLanes, ALampIsSampledAsInTheScalarCode) {
@@ -143,13 +150,11 @@ TEST(LightLanes, PointsSpotsAndSunsAreSampledAsInTheScalarCode) {
   scene.lights.push_back(punctual(scene::LightType::spot, Vec3(-6, 8, 0), Vec3(0.5f, -1, 0)));
   scene.lights.push_back(punctual(scene::LightType::directional, Vec3::Zero(), Vec3(0.2f, -1, 0.3f)));
   scene.lights.push_back(punctual(scene::LightType::directional, Vec3::Zero(), Vec3(-1, -0.1f, 0)));
-  // Near the edge of a cone the difference of two cosines has few digits.
-  constexpr double kWorst = 5e-2;
-  expect_agreement(compare(LitScene(scene), 7), kWorst);
-  expect_agreement(compare(LitScene(scene), 17, SamplerKind::sobol, true), kWorst);
+  expect_agreement(compare(LitScene(scene), 7));
+  expect_agreement(compare(LitScene(scene), 17, SamplerKind::sobol, true));
   scene::Scene only;
   only.lights = scene.lights;
-  expect_agreement(compare(LitScene(std::move(only)), 8), kWorst);
+  expect_agreement(compare(LitScene(std::move(only)), 8));
   scene::Scene suns;
   suns.lights = {scene.lights[2]};
   expect_agreement(compare(LitScene(suns), 9));
