@@ -142,7 +142,8 @@ double cost_of_choices(const std::vector<LightBounds>& lights) {
   double cost = 0.0;
   constexpr int kPoints = 50;
   for (int i = 0; i < kPoints; ++i) {
-    const Vec3 p(random.uniform_float() - 0.5f, random.uniform_float() - 0.5f, random.uniform_float() - 0.5f);
+    Vec3 p;  // one number a statement: compilers evaluate arguments in orders of their own
+    for (const int axis : {2, 1, 0}) p[axis] = random.uniform_float() - 0.5f;
     double mean = 0.0;
     double second = 0.0;
     for (std::uint32_t k = 0; k < lights.size(); ++k) {
@@ -161,13 +162,13 @@ double cost_of_choices(const std::vector<LightBounds>& lights) {
 
 TEST(LightTreeTest, SplitsLightsByPositionAndDirection) {
   // Shuffled: groups in the order of the list would cover the whole cube. Measured 2.08 (4.5 in such
-  // groups) and 4.64; other random lights give up to 2.5.
+  // groups) and 4.64.
   std::vector<LightBounds> lights = scattered(800, 17);
   for (LightBounds& light : lights) {
     light = {.centre = light.centre, .radius = 1e-3f, .axis = light.axis, .intensity = 1.0};
     light.cos_normals = -1.0f;
   }
-  EXPECT_LT(cost_of_choices(lights), 3.0) << "lamps that shine all round";
+  EXPECT_LT(cost_of_choices(lights), 2.4) << "lamps that shine all round";
   for (LightBounds& light : lights) {
     light.cos_normals = 1.0f;
     light.axis = light.axis.x() > 0.0f ? Vec3(1, 0, 0) : Vec3(0, 1, 0);
