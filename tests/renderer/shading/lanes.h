@@ -132,8 +132,8 @@ inline ShadingBlock run_all(const ShadingBlock& block, const ShadingContext& con
 
 inline Vec3 random_direction(Random& random) {
   for (;;) {
-    const Vec3 v(random.uniform_float() * 2.0f - 1.0f, random.uniform_float() * 2.0f - 1.0f,
-                 random.uniform_float() * 2.0f - 1.0f);
+    Vec3 v;  // one number a statement: compilers evaluate arguments in orders of their own
+    for (const int axis : {2, 1, 0}) v[axis] = random.uniform_float() * 2.0f - 1.0f;
     if (v.squaredNorm() > 0.01f && v.squaredNorm() < 1.0f) return v.normalized();
   }
 }
@@ -167,8 +167,9 @@ inline LanePoint random_point(Random& random) {
                            ? Vec3(0.0f, 0.0f, random.uniform_float() < 0.5f ? -1.0f : 1.0f)
                            : random_direction(random);
   const auto tilted = [&] {
-    const Vec3 n =
-        (s.geometric_normal + 0.4f * random.uniform_float() * random_direction(random)).normalized();
+    const Vec3 direction = random_direction(random);
+    const float scale = 0.4f * random.uniform_float();
+    const Vec3 n = (s.geometric_normal + scale * direction).normalized();
     return random.uniform_float() < 0.3f ? s.geometric_normal : n;
   };
   s.smooth_normal = s.shading_normal = tilted();
@@ -197,7 +198,8 @@ inline LanePoint random_point(Random& random) {
     m.sheen_roughness = random_factor(random);
   }
   const auto number = [&] { return static_cast<std::uint32_t>(random.uniform_float() * 0x1p24f); };
-  p.sampler = Sampler(SamplerKind::sobol, number(), number(), number(), number());
+  const std::uint32_t d = number(), c = number(), b = number(), a = number();
+  p.sampler = Sampler(SamplerKind::sobol, a, b, c, d);
   p.dimensions = 1 + 4 * (number() % 100);
   p.seed = hash(number());
   return p;

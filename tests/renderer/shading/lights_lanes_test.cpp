@@ -30,7 +30,9 @@ scene::PunctualLight punctual(scene::LightType type, const Vec3& position, const
 scene::Scene lamps(int count, Random& random) {
   scene::Scene scene;
   for (int i = 0; i < count; ++i) {
-    const Vec3 at = (2.0f + 20.0f * random.uniform_float()) * random_direction(random);
+    const Vec3 direction = random_direction(random);
+    const float distance = 2.0f + 20.0f * random.uniform_float();
+    const Vec3 at = distance * direction;
     const float size = std::pow(10.0f, 1.0f - 3.0f * random.uniform_float());
     gatelight::testing::Triangle t{at, at + size * random_direction(random),
                                    at + size * random_direction(random)};
@@ -44,11 +46,8 @@ struct Agreement {
   int same = 0;
   int other = 0;         ///< another light, by a random number at the border between two
   int other_number = 0;  ///< in the same direction
-  int rough = 0;  ///< a difference above kClose: few digits, as of a cosine near 0 or at the edge of a cone
   double worst = 0.0;
 };
-
-constexpr double kClose = 5e-3;
 
 LightSample sample(const LitScene& lit, const LanePoint& p, bool delta) {
   const float choice = p.sampler.get_1d(p.dimensions + 2);
@@ -94,11 +93,10 @@ Agreement compare(const LitScene& lit, std::uint64_t seed, SamplerKind kind = Sa
       }
       ++agreement.same;
       if (!has) continue;
-      double worst = 0.0;
       const auto meet = [&](float a, float b) {
         if (a == b) return;
         const float difference = std::abs(a - b) / std::max(std::abs(a), std::abs(b));
-        worst = std::max(worst, static_cast<double>(difference));
+        agreement.worst = std::max(agreement.worst, static_cast<double>(difference));
       };
       EXPECT_EQ(result.light_is_delta[lane] != 0, expected.delta);
       if (!delta && result.light[lane] != expected.light) ++agreement.other_number;
@@ -107,21 +105,18 @@ Agreement compare(const LitScene& lit, std::uint64_t seed, SamplerKind kind = Sa
       meet(result.light_cosine[lane], expected.cosine);
       meet(result.light_offset[lane], expected.offset);
       for (int c = 0; c < 3; ++c) meet(result.light_radiance[c][lane], expected.radiance[c]);
-      if (worst > kClose) ++agreement.rough;
-      agreement.worst = std::max(agreement.worst, worst);
     }
   }
-  std::printf("%d lanes agree, %d of them roughly, %d chose another light, worst difference %.2e\n",
-              agreement.same, agreement.rough, agreement.other, agreement.worst);
+  std::printf("%d lanes agree, %d chose another light, worst difference %.2e\n", agreement.same,
+              agreement.other, agreement.worst);
   return agreement;
 }
 
-void expect_agreement(const Agreement& a) {
+void expect_agreement(const Agreement& a, double worst = 5e-3) {
   EXPECT_GT(a.same, 1000);
   EXPECT_LT(a.other, 1e-3 * a.same);
   EXPECT_LT(a.other_number, 1e-3 * a.same);
-  EXPECT_LT(a.rough, 1e-3 * a.same);
-  EXPECT_LT(a.worst, 0.1);
+  EXPECT_LT(a.worst, worst);
 }
 
 TEST(LightLanes, ALampIsSampledAsInTheScalarCode) {
@@ -150,11 +145,13 @@ TEST(LightLanes, PointsSpotsAndSunsAreSampledAsInTheScalarCode) {
   scene.lights.push_back(punctual(scene::LightType::spot, Vec3(-6, 8, 0), Vec3(0.5f, -1, 0)));
   scene.lights.push_back(punctual(scene::LightType::directional, Vec3::Zero(), Vec3(0.2f, -1, 0.3f)));
   scene.lights.push_back(punctual(scene::LightType::directional, Vec3::Zero(), Vec3(-1, -0.1f, 0)));
-  expect_agreement(compare(LitScene(scene), 7));
-  expect_agreement(compare(LitScene(scene), 17, SamplerKind::sobol, true));
+  // Near the edge of a cone the difference of two cosines has few digits.
+  constexpr double kWorst = 5e-2;
+  expect_agreement(compare(LitScene(scene), 7), kWorst);
+  expect_agreement(compare(LitScene(scene), 17, SamplerKind::sobol, true), kWorst);
   scene::Scene only;
   only.lights = scene.lights;
-  expect_agreement(compare(LitScene(std::move(only)), 8));
+  expect_agreement(compare(LitScene(std::move(only)), 8), kWorst);
   scene::Scene suns;
   suns.lights = {scene.lights[2]};
   expect_agreement(compare(LitScene(suns), 9));
@@ -171,8 +168,9 @@ TEST(LightLanes, ProfilesAreThoseOfTheScalarCode) {
   Random random(21);
   scene::Scene scene = lamps(4, random);
   for (int i = 0; i < 4; ++i) {
-    scene::PunctualLight light = punctual(i % 2 == 0 ? scene::LightType::point : scene::LightType::spot,
-                                          9.0f * random_direction(random), random_direction(random));
+    const Vec3 axis = random_direction(random), place = 9.0f * random_direction(random);
+    scene::PunctualLight light =
+        punctual(i % 2 == 0 ? scene::LightType::point : scene::LightType::spot, place, axis);
     if (i > 0) light.profile = lopsided_profile();
     if (i > 0) light.type = scene::LightType::point;
     light.side = any_perpendicular(light.direction);
