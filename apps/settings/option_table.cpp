@@ -123,7 +123,9 @@ void add_frame_options(OptionGroup& group, FrameSettings& frames) {
   auto& [range, fps, turntable, shutter, film, groups] = frames;
   const auto add = [&](Option option) {
     const auto value = std::move(option.value);
-    option.value = [value, &chosen = range]() -> OptionValue { return chosen ? value() : OptionValue(); };
+    option.value = [value, &chosen = frames.range]() -> OptionValue {
+      return chosen ? value() : OptionValue();
+    };
     group.add(not_in_sweep(std::move(option)));
   };
   add(common(

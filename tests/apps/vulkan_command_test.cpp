@@ -56,8 +56,8 @@ TEST_F(VulkanCommand, BothDevicesRenderTheSamePicture) {
                              Words{"--integrator", "nrc", "--encoding", "hashgrid"}}) {
     for (const char* device : {"cpu", "vulkan"}) {
       Words words = {
-          "--size",        "96x64", "--spp",   "4",   "--device", device,
-          "--train-steps", "96",    "--batch", "512", "-o",       path(std::string(device) + ".exr")};
+          "--size",        "64x48", "--spp",   "2",   "--device", device,
+          "--train-steps", "48",    "--batch", "512", "-o",       path(std::string(device) + ".exr")};
       words.insert(words.end(), {"--exr", "float"});  // half precision would round the difference away
       words.insert(words.end(), cache.begin(), cache.end());
       const Output output = render(words);

@@ -30,10 +30,10 @@ void fill(const OwnedMesh& mesh, Random& random, float noise, Points& points) {
     const std::uint32_t triangle = random.below(static_cast<std::uint32_t>(mesh.triangles.size()));
     Float2 b = {random.unit(), random.unit()};
     if (b[0] + b[1] > 1) b = {1 - b[0], 1 - b[1]};
-    const auto& [p, q, s] = mesh.triangles[triangle];
+    const auto& corners = mesh.triangles[triangle];
     const auto at = [&](std::size_t axis) {
-      return (1 - b[0] - b[1]) * mesh.positions[p][axis] + b[0] * mesh.positions[q][axis] +
-             b[1] * mesh.positions[s][axis];
+      return (1 - b[0] - b[1]) * mesh.positions[corners[0]][axis] + b[0] * mesh.positions[corners[1]][axis] +
+             b[1] * mesh.positions[corners[2]][axis];
     };
     points.batch.triangles[r] = triangle;
     points.batch.barycentrics[r] = b;

@@ -6,7 +6,6 @@
 
 #include <cctype>
 #include <exception>
-#include <source_location>
 #include <string>
 #include <string_view>
 #include <typeinfo>
@@ -15,7 +14,16 @@
 namespace gatelight::tests {
 
 using NameList = std::vector<std::string>;
-using Place = std::source_location;
+
+/// Where a check was called, as std::source_location, which clang has from version 16 on.
+struct Place {
+  const char* file;
+  int line;
+
+  static constexpr Place current(const char* file = __builtin_FILE(), int line = __builtin_LINE()) {
+    return {file, line};
+  }
+};
 
 /// Whether the name is in the text as a word or number of its own: "4" is neither in "14" nor in "4.5".
 inline bool has_name(std::string_view text, std::string_view name) {
@@ -38,8 +46,7 @@ inline bool has_name(std::string_view text, std::string_view name) {
 /// Expects one line that has all the names in it. For texts of libraries and the platform, whose wording is
 /// not ours.
 inline void expect_names(const std::string& message, const NameList& names, Place place = Place::current()) {
-  const ::testing::ScopedTrace trace(place.file_name(), static_cast<int>(place.line()),
-                                     "message: " + message);
+  const ::testing::ScopedTrace trace(place.file, place.line, "message: " + message);
   EXPECT_NE(message, "") << "expected a message";
   EXPECT_EQ(message.find('\n'), std::string::npos) << "expected one line";
   for (const std::string& name : names) EXPECT_TRUE(has_name(message, name)) << "expected '" << name << "'";
@@ -56,7 +63,7 @@ inline void expect_message(const std::string& message, const NameList& names,
 /// Expects as many messages as lists of names, in this order.
 inline void expect_messages(const std::vector<std::string>& messages, const std::vector<NameList>& names,
                             Place place = Place::current()) {
-  const ::testing::ScopedTrace trace(place.file_name(), static_cast<int>(place.line()), "messages");
+  const ::testing::ScopedTrace trace(place.file, place.line, "messages");
   ASSERT_EQ(messages.size(), names.size()) << ::testing::PrintToString(messages);
   for (std::size_t i = 0; i < names.size(); ++i) expect_message(messages[i], names[i], place);
 }
@@ -75,7 +82,7 @@ std::string refusal(const Act& act) {
 
 template <typename Error, typename Act>
 void expect_refusal(const Act& act, const NameList& names, Place place = Place::current()) {
-  const ::testing::ScopedTrace trace(place.file_name(), static_cast<int>(place.line()), "refusal");
+  const ::testing::ScopedTrace trace(place.file, place.line, "refusal");
   expect_message(refusal<Error>(act), names, place);
 }
 

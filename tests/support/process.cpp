@@ -135,8 +135,7 @@ Output run_gatelight(const std::vector<std::string>& arguments, const std::funct
 }
 
 void expect_failure_names(const Output& output, int exit_code, const NameList& names, Place place) {
-  const ::testing::ScopedTrace trace(place.file_name(), static_cast<int>(place.line()),
-                                     "stderr: " + output.err);
+  const ::testing::ScopedTrace trace(place.file, place.line, "stderr: " + output.err);
   EXPECT_EQ(output.exit_code, exit_code);
   EXPECT_FALSE(output.killed);
   EXPECT_EQ(output.error_lines().size(), 1u);

@@ -42,7 +42,7 @@ class JsonMessages : public FolderTest {
   /// The only event of a call that fails early.
   void expect_error(const std::vector<std::string>& call, int code, const NameList& names,
                     Place place = Place::current()) const {
-    const ::testing::ScopedTrace trace(place.file_name(), static_cast<int>(place.line()), "call");
+    const ::testing::ScopedTrace trace(place.file, place.line, "call");
     const Output output = run_gatelight_inside(call);
     EXPECT_EQ(output.exit_code, code);
     const std::vector<json> description = events(output);

@@ -43,7 +43,9 @@ TEST(CacheFile, TrainingContinuesBitForBit) {
     const OwnedBatch batches[] = {make_batch(*c.model, 300, 1), make_batch(*c.model, 300, 2)};
     for (const auto& [options_name, options] : all_training_options(*c.model)) {
       SCOPED_TRACE(std::string(name) + " " + options_name);
-      const auto learner = [&] { return Trainer(c.model, options, cpu::make_cpu_backend(c.model, options)); };
+      const auto learner = [&c, &chosen = options] {
+        return Trainer(c.model, chosen, cpu::make_cpu_backend(c.model, chosen));
+      };
       Trainer straight = learner();
       for (int step = 0; step < 6; ++step) {
         if (step == 3) straight.save(folder / "a", kFingerprint);

@@ -16,7 +16,7 @@ namespace gatelight::renderer {
 namespace {
 
 constexpr int kWidth = 32, kHeight = 18, kBlock = 3;  // pixels
-constexpr int kTimes = 64;
+constexpr int kTimes = 32;
 constexpr int kSeeds = 32;
 constexpr double kMiddle = 0.6, kOpen = 0.5;  // seconds
 const double kFamily = 1e-4;
