@@ -15,14 +15,14 @@ COPY = "/etc/ssl/of-the-host.crt"  # the system's own ones are written by its pa
 
 
 class System:
-    """A Debian in a folder, by its code name. `ccache`: a folder for compiled objects, or None."""
+    """A Debian in a folder, by its code name. `ccache`: a folder for compiled objects, or None. `required`: what tests must not
+    skip (GATELIGHT_REQUIRE_...)."""
 
-    def __init__(self, name, folder, ccache):
+    def __init__(self, name, folder, ccache, required=()):
         self.name, self.root = name, os.path.join(os.path.abspath(folder), name)
         self.archives = os.path.join(os.path.dirname(self.root), "archives-" + name)
         binds = {"/dev": "/dev"}
-        # As in scripts/test: what would skip itself must fail.
-        self.variables = {f"GATELIGHT_REQUIRE_{name}": "1" for name in ("QEMU", "VULKAN", "MPI", "OIDN")}
+        self.variables = {f"GATELIGHT_REQUIRE_{what}": "1" for what in required}
         for variable in ("GATELIGHT_SCENES", "GATELIGHT_FLIP_PAIR"):
             if variable in os.environ:
                 self.variables[variable] = "/" + variable.lower()

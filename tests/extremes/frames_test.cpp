@@ -68,7 +68,7 @@ double resident_mebibytes() {
 /// A triangle that goes from x = 0 to x = 1 in a second.
 AnimatedFile going_triangle() {
   AnimatedFile file = moving_triangle();
-  file.move(0, "translation", file.seconds({0, 1}), file.vectors({0, 0, 0, 1, 0, 0}));
+  file.move(0, "translation", {file.seconds({0, 1}), file.vectors({0, 0, 0, 1, 0, 0})});
   return file;
 }
 
@@ -96,7 +96,7 @@ TEST(FramesAtExtremes, TimesWithoutKeys) {
   EXPECT_EQ(place(0.5), 0.5f) << "backwards";
   EXPECT_EQ(place(-0.25), 0.0f);
   AnimatedFile still = moving_triangle();
-  still.move(0, "translation", still.seconds({0}), still.vectors({3, 0, 0}));
+  still.move(0, "translation", {still.seconds({0}), still.vectors({3, 0, 0})});
   Player of_no_time(still);
   for (const double seconds : {-1.0, 0.0, 7.0}) {
     EXPECT_TRUE(all_finite(of_no_time.frame(1, seconds)));
@@ -116,8 +116,8 @@ TEST(FramesAtExtremes, JointsThatCollapse) {
   primitive["attributes"]["WEIGHTS_0"] =
       file.accessor(std::vector<float>{1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}, kFloat, "VEC4", 3);
   file.node({{"mesh", file.mesh(primitive)}, {"skin", 0}});
-  file.move(joint, "scale", file.seconds({0, 1, 2, 3}),
-            file.vectors({1, 1, 1, 0, 0, 0, 1e-30f, 1, 1, -1, 1, 1}));
+  file.move(joint, "scale",
+            {file.seconds({0, 1, 2, 3}), file.vectors({1, 1, 1, 0, 0, 0, 1e-30f, 1, 1, -1, 1, 1})});
   Player player(file);
   for (const double seconds : {0.0, 0.5, 1.0, 1.5, 2.0, 3.0, 1.0}) {
     EXPECT_TRUE(all_finite(player.frame(2, seconds))) << seconds;
@@ -129,7 +129,7 @@ TEST(FramesAtExtremes, JointsThatCollapse) {
 
 TEST(FramesAtExtremes, VerticesThatLeaveTheScene) {
   AnimatedFile file = moving_triangle();
-  file.move(0, "translation", file.seconds({0, 1, 2}), file.vectors({0, 0, 0, 9e8f, 0, 0, 1e12f, 0, 0}));
+  file.move(0, "translation", {file.seconds({0, 1, 2}), file.vectors({0, 0, 0, 9e8f, 0, 0, 1e12f, 0, 0})});
   Player player(file);
   EXPECT_TRUE(all_finite(player.frame(0, 0.0)));
   EXPECT_TRUE(all_finite(player.frame(1, 1.0)));
@@ -142,17 +142,17 @@ TEST(FramesAtExtremes, VerticesThatLeaveTheScene) {
 TEST(FramesAtExtremes, MotionWhileAShutterIsOpen) {
   AnimatedFile turned = moving_triangle();
   const auto seconds = turned.seconds({0, 1, 2, 3});
-  turned.move(0, "scale", seconds, turned.vectors({1, 1, 1, -1, 1, 1, 0, 0, 0, 1, 1e-30f, 1}));
+  turned.move(0, "scale", {seconds, turned.vectors({1, 1, 1, -1, 1, 1, 0, 0, 0, 1, 1e-30f, 1})});
   Player inverted(turned, 1.0);
   for (const double time : {0.0, 0.5, 1.0, 1.5, 2.5, 1e9})
     EXPECT_TRUE(all_finite(inverted.frame(0, time))) << time;
   AnimatedFile spinning = moving_triangle();
-  spinning.move(0, "rotation", spinning.seconds({0, 1, 2}),
-                spinning.quaternions({0, 0, 0, 1, 0, 0, 1, 0, 0, 0, 0, 1}));
+  spinning.move(0, "rotation",
+                {spinning.seconds({0, 1, 2}), spinning.quaternions({0, 0, 0, 1, 0, 0, 1, 0, 0, 0, 0, 1})});
   Player spun(spinning, 1e6);
   EXPECT_TRUE(all_finite(spun.frame(0, 0.0)));
   AnimatedFile leaving = moving_triangle();
-  leaving.move(0, "translation", leaving.seconds({0, 1}), leaving.vectors({0, 0, 0, 1e12f, 0, 0}));
+  leaving.move(0, "translation", {leaving.seconds({0, 1}), leaving.vectors({0, 0, 0, 1e12f, 0, 0})});
   EXPECT_TRUE(all_finite(Player(leaving, 1e-4).frame(0, 0.0)));
   Player gone(leaving);
   SceneFile open(leaving.write(gone.folder), {.time = 0.0, .shutter = 0.5});

@@ -20,11 +20,11 @@ AnimatedFile three_animations() {
   file.node({{"camera", 0}});
   file.add("cameras", {{"type", "perspective"}, {"perspective", {{"yfov", 1.0}, {"znear", 0.1}}}});
   file.animation("walk");
-  file.move(0, "translation", file.seconds({0, 1}), file.vectors({0, 0, 0, 1, 0, 0}));
+  file.move(0, "translation", {file.seconds({0, 1}), file.vectors({0, 0, 0, 1, 0, 0})});
   file.animation("run");
-  file.move(0, "translation", file.seconds({0, 2}), file.vectors({0, 0, 0, 8, 0, 0}));
+  file.move(0, "translation", {file.seconds({0, 2}), file.vectors({0, 0, 0, 8, 0, 0})});
   file.animation("pan");
-  file.move(1, "translation", file.seconds({0, 4}), file.vectors({0, 0, 0, 0, 4, 0}));
+  file.move(1, "translation", {file.seconds({0, 4}), file.vectors({0, 0, 0, 0, 4, 0})});
   return file;
 }
 
@@ -97,7 +97,7 @@ class BrokenAnimation : public testing::TestWithParam<Flaw> {};
 AnimatedFile with_flaw(const Flaw& flaw) {
   AnimatedFile file = moving_triangle();
   file.animation("sound");
-  file.move(0, "scale", file.seconds({0, 1}), file.vectors({1, 1, 1, 3, 3, 3}));
+  file.move(0, "scale", {file.seconds({0, 1}), file.vectors({1, 1, 1, 3, 3, 3})});
   file.animation("broken");
   flaw.make(file);
   return file;
@@ -123,7 +123,7 @@ json& last_animation(AnimatedFile& file) {
 
 void move_by(AnimatedFile& file, const Floats& times, const Floats& values,
              const char* interpolation = "LINEAR") {
-  file.move(0, "translation", file.seconds(times), file.vectors(values), interpolation);
+  file.move(0, "translation", {file.seconds(times), file.vectors(values)}, interpolation);
 }
 
 const Flaw kFlaws[] = {
@@ -171,22 +171,24 @@ const Flaw kFlaws[] = {
      {"accessors", "finite"}},
     {"OtherType",
      [](AnimatedFile& f) {
-       f.move(0, "rotation", f.seconds({0}), f.vectors({0, 0, 0}));
+       f.move(0, "rotation", {f.seconds({0}), f.vectors({0, 0, 0})});
      },
      {"accessors", "3", "4"}},
     {"IntegerTimes",
      [](AnimatedFile& f) {
-       f.move(0, "translation", f.accessor(std::vector<std::uint8_t>{0}, kUnsignedByte, "SCALAR", 1),
-              f.vectors({0, 0, 0}));
+       f.move(0, "translation",
+              {f.accessor(std::vector<std::uint8_t>{0}, kUnsignedByte, "SCALAR", 1), f.vectors({0, 0, 0})});
      },
      {"accessors", "5121", "5126"}},
     {"TimesOfThree",
      [](AnimatedFile& f) {
-       f.move(0, "translation", f.vectors({0, 0, 0}), f.vectors({0, 0, 0}));
+       f.move(0, "translation", {f.vectors({0, 0, 0}), f.vectors({0, 0, 0})});
      },
      {"accessors", "times", "1"}},
     {"MissingAccessor",
-     [](AnimatedFile& f) { f.move(0, "translation", 99, 0); },
+     [](AnimatedFile& f) {
+       f.move(0, "translation", {99, 0});
+     },
      {"animations[1].channels[0].sampler.input", "99"}},
     {"MissingOutput",
      [](AnimatedFile& f) {
@@ -207,7 +209,9 @@ const Flaw kFlaws[] = {
      },
      {"animations[1].channels[0].sampler", "missing"}},
     {"MissingNode",
-     [](AnimatedFile& f) { f.move(44, "translation", 0, 0); },
+     [](AnimatedFile& f) {
+       f.move(44, "translation", {0, 0});
+     },
      {"animations[1].channels[0].target.node", "44", "1"}},
     {"ChannelsThatAreNoList",
      [](AnimatedFile& f) { last_animation(f)["channels"] = 3; },
@@ -219,7 +223,7 @@ const Flaw kFlaws[] = {
      [](AnimatedFile& f) {
        const int times =
            f.add("accessors", {{"componentType", kFloat}, {"type", "SCALAR"}, {"count", 2000000000}});
-       f.move(0, "translation", times, times);
+       f.move(0, "translation", {times, times});
      },
      {"accessors", "2000000000", "1048576"}},
     {"UnknownInterpolation",
@@ -230,17 +234,19 @@ const Flaw kFlaws[] = {
      {"animations[1].channels[0].sampler.interpolation", "BEZIER"}},
     {"UnknownPath",
      [](AnimatedFile& f) {
-       f.move(0, "colour", f.seconds({0}), f.vectors({0, 0, 0}));
+       f.move(0, "colour", {f.seconds({0}), f.vectors({0, 0, 0})});
      },
      {},
      {"animations[1].channels[0]", "/nodes/0/colour"}},
     {"WeightsWithoutTargets",
-     [](AnimatedFile& f) { f.move(0, "weights", f.seconds({0}), f.scalars({1})); },
+     [](AnimatedFile& f) {
+       f.move(0, "weights", {f.seconds({0}), f.scalars({1})});
+     },
      {},
      {"animations[1].channels[0]", "/nodes/0/weights"}},
     {"NoTarget",
      [](AnimatedFile& f) {
-       f.channel({{"path", "translation"}}, 0, 0);
+       f.channel({{"path", "translation"}}, {0, 0});
      },
      {},
      {"animations[1].channels[0]", "no target"}},
@@ -261,7 +267,7 @@ TEST(AnimationChoice, WeightsOfAnotherNumberThanTargetsAreRefused) {
   json primitive = file.triangle();
   primitive["targets"] = {{{"POSITION", file.vectors(Floats(9))}}, {{"POSITION", file.vectors(Floats(9))}}};
   file.node({{"mesh", file.mesh(primitive)}});
-  file.move(0, "weights", file.seconds({0, 1, 2}), file.scalars(Floats(3)));
+  file.move(0, "weights", {file.seconds({0, 1, 2}), file.scalars(Floats(3))});
   file.expect_refused({"accessors", "3", "6"}, {.time = 0.0});
 }
 
@@ -269,9 +275,9 @@ TEST(AnimationChoice, ChannelsOfWhatIsNotShownAreNotRead) {
   AnimatedFile file = moving_triangle();
   const int hidden = file.add("nodes", {{"name", "hidden"}});
   file.add("materials", json::object());
-  file.move(hidden, "translation", file.seconds({0, kNan}), 0);
-  file.move("/materials/0/alphaCutoff", 99, 99);
-  file.move(0, "translation", file.seconds({0, 1}), file.vectors({0, 0, 0, 2, 0, 0}));
+  file.move(hidden, "translation", {file.seconds({0, kNan}), 0});
+  file.move("/materials/0/alphaCutoff", {99, 99});
+  file.move(0, "translation", {file.seconds({0, 1}), file.vectors({0, 0, 0, 2, 0, 0})});
   EXPECT_EQ(file.place_at(0.5), Vec3(1, 0, 0));
 }
 

@@ -38,11 +38,11 @@ TEST(AnimationPointers, FactorsOfAMaterial) {
   AnimatedFile file = lit_triangle({{"alphaMode", "MASK"}});
   const int times = file.seconds({0, 1});
   const int colors = file.quaternions({1, 0, 0, 1, 0, 1, 0, 0.5f});
-  file.move("/materials/0/pbrMetallicRoughness/baseColorFactor", times, colors);
-  file.move("/materials/0/pbrMetallicRoughness/metallicFactor", times, file.scalars({0, 1}));
-  file.move("/materials/0/pbrMetallicRoughness/roughnessFactor", times, file.scalars({1, 0.5f}), "STEP");
-  file.move("/materials/0/alphaCutoff", times, file.scalars({0.25f, 0.75f}));
-  file.move("/materials/0/emissiveFactor", times, file.vectors({0, 0, 0, 1, 0.5f, 0}));
+  file.move("/materials/0/pbrMetallicRoughness/baseColorFactor", {times, colors});
+  file.move("/materials/0/pbrMetallicRoughness/metallicFactor", {times, file.scalars({0, 1})});
+  file.move("/materials/0/pbrMetallicRoughness/roughnessFactor", {times, file.scalars({1, 0.5f})}, "STEP");
+  file.move("/materials/0/alphaCutoff", {times, file.scalars({0.25f, 0.75f})});
+  file.move("/materials/0/emissiveFactor", {times, file.vectors({0, 0, 0, 1, 0.5f, 0})});
   const Material m = material_at(file, 0.5);
   EXPECT_TRUE((m.base_color == Color(0.5f, 0.5f, 0)).all());
   EXPECT_EQ(m.base_alpha, 0.75f);
@@ -63,11 +63,12 @@ TEST(AnimationPointers, ExtensionsOfAMaterial) {
                       {"KHR_materials_volume", {{"thicknessFactor", 1.0}, {"attenuationDistance", 5.0}}}}}});
   const int times = file.seconds({0, 1});
   const std::string extensions = "/materials/0/extensions/";
-  file.move(extensions + "KHR_materials_emissive_strength/emissiveStrength", times, file.scalars({2, 6}));
-  file.move(extensions + "KHR_materials_ior/ior", times, file.scalars({1, 2}));
-  file.move(extensions + "KHR_materials_transmission/transmissionFactor", times, file.scalars({0, 1}));
-  file.move(extensions + "KHR_materials_volume/attenuationDistance", times, file.scalars({1, 3}));
-  file.move(extensions + "KHR_materials_volume/attenuationColor", times, file.vectors({1, 1, 1, 0, 0.5f, 1}));
+  file.move(extensions + "KHR_materials_emissive_strength/emissiveStrength", {times, file.scalars({2, 6})});
+  file.move(extensions + "KHR_materials_ior/ior", {times, file.scalars({1, 2})});
+  file.move(extensions + "KHR_materials_transmission/transmissionFactor", {times, file.scalars({0, 1})});
+  file.move(extensions + "KHR_materials_volume/attenuationDistance", {times, file.scalars({1, 3})});
+  file.move(extensions + "KHR_materials_volume/attenuationColor",
+            {times, file.vectors({1, 1, 1, 0, 0.5f, 1})});
   const Material m = material_at(file, 0.5);
   EXPECT_EQ(m.emission.x(), 4.0f);
   EXPECT_EQ(m.ior, 1.5f);
@@ -99,10 +100,10 @@ TEST(AnimationPointers, TransformsOfTextures) {
   const std::string coat =
       "/materials/0/extensions/KHR_materials_clearcoat/clearcoatTexture/extensions/KHR_texture_transform/";
   const int pairs = file.accessor(std::vector<float>{0, 0, 2, 4}, kFloat, "VEC2", 2);
-  file.move(core + "offset", times, pairs);
-  file.move(core + "scale", times, pairs);
-  file.move(coat + "rotation", times, file.scalars({0, 2}));
-  file.move("/materials/0/normalTexture/scale", times, file.scalars({0, 3}));
+  file.move(core + "offset", {times, pairs});
+  file.move(core + "scale", {times, pairs});
+  file.move(coat + "rotation", {times, file.scalars({0, 2})});
+  file.move("/materials/0/normalTexture/scale", {times, file.scalars({0, 3})});
   const Material m = material_at(file, 0.5);
   Eigen::Matrix<float, 2, 3> expected;
   expected << 1, 0, 1, 0, 2, 2;
@@ -115,11 +116,11 @@ TEST(AnimationPointers, Lights) {
   AnimatedFile file = lit_triangle();
   const int times = file.seconds({0, 2});
   const std::string light = "/extensions/KHR_lights_punctual/lights/0/";
-  file.move(light + "color", times, file.vectors({1, 1, 1, 0, 0.5f, 1}));
-  file.move(light + "intensity", times, file.scalars({0, 8}));
-  file.move(light + "range", times, file.scalars({10, 30}));
-  file.move(light + "spot/innerConeAngle", times, file.scalars({0, 0.5f}));
-  file.move(light + "spot/outerConeAngle", times, file.scalars({0.5f, 1}));
+  file.move(light + "color", {times, file.vectors({1, 1, 1, 0, 0.5f, 1})});
+  file.move(light + "intensity", {times, file.scalars({0, 8})});
+  file.move(light + "range", {times, file.scalars({10, 30})});
+  file.move(light + "spot/innerConeAngle", {times, file.scalars({0, 0.5f})});
+  file.move(light + "spot/outerConeAngle", {times, file.scalars({0.5f, 1})});
   const PunctualLight found = file.at(1.0).lights.at(0);
   EXPECT_TRUE((found.intensity == Color(2, 3, 4)).all());
   EXPECT_EQ(found.range, 20.0f);
@@ -130,10 +131,10 @@ TEST(AnimationPointers, Lights) {
 TEST(AnimationPointers, Cameras) {
   AnimatedFile file = lit_triangle();
   const int times = file.seconds({0, 1});
-  file.move("/cameras/0/perspective/yfov", times, file.scalars({0.5f, 1.5f}));
-  file.move("/cameras/0/perspective/aspectRatio", times, file.scalars({1, 3}));
-  file.move("/cameras/1/orthographic/xmag", times, file.scalars({1, 5}));
-  file.move("/cameras/1/orthographic/ymag", times, file.scalars({2, 4}));
+  file.move("/cameras/0/perspective/yfov", {times, file.scalars({0.5f, 1.5f})});
+  file.move("/cameras/0/perspective/aspectRatio", {times, file.scalars({1, 3})});
+  file.move("/cameras/1/orthographic/xmag", {times, file.scalars({1, 5})});
+  file.move("/cameras/1/orthographic/ymag", {times, file.scalars({2, 4})});
   const Scene scene = file.at(0.5);
   EXPECT_EQ(scene.cameras[0].vertical_fov, 1.0f);
   EXPECT_EQ(scene.cameras[0].aspect, 2.0f);
@@ -144,9 +145,9 @@ TEST(AnimationPointers, Cameras) {
 
 TEST(AnimationPointers, NodesAsByTheirPaths) {
   AnimatedFile file = moving_triangle();
-  file.move("/nodes/0/translation", file.seconds({0, 1}), file.vectors({0, 0, 0, 2, 0, 0}));
+  file.move("/nodes/0/translation", {file.seconds({0, 1}), file.vectors({0, 0, 0, 2, 0, 0})});
   const float s = std::sqrt(0.5f);
-  file.move("/nodes/0/rotation", file.seconds({0, 1}), file.quaternions({0, 0, 0, 1, 0, 0, s, s}));
+  file.move("/nodes/0/rotation", {file.seconds({0, 1}), file.quaternions({0, 0, 0, 1, 0, 0, s, s})});
   const Affine t = file.transform_at(0.5);
   EXPECT_EQ(Vec3(t.translation()), Vec3(1, 0, 0));
   EXPECT_TRUE(t.linear().isApprox(Eigen::AngleAxisf(0.78539816f, Vec3::UnitZ()).toRotationMatrix(), 1e-6f));
@@ -161,9 +162,9 @@ TEST(AnimationPointers, SingleWeightsAndThoseOfMeshes) {
   file.add("meshes", {{"primitives", {primitive}}, {"weights", {0.25, 0.5}}});
   file.node({{"mesh", 0}});
   AnimatedFile of_mesh = file;
-  file.move("/nodes/0/weights/1", file.seconds({0, 1}), file.scalars({0, 4}));
+  file.move("/nodes/0/weights/1", {file.seconds({0, 1}), file.scalars({0, 4})});
   EXPECT_EQ(only_mesh(file.at(0.25)).positions[0], Vec3(0.25f, 1, 0)) << "the other keeps the mesh's";
-  of_mesh.move("/meshes/0/weights", of_mesh.seconds({0, 1}), of_mesh.scalars({0, 0, 4, 8}));
+  of_mesh.move("/meshes/0/weights", {of_mesh.seconds({0, 1}), of_mesh.scalars({0, 0, 4, 8})});
   EXPECT_EQ(only_mesh(of_mesh.at(0.25)).positions[0], Vec3(1, 2, 0));
 }
 
@@ -172,7 +173,7 @@ TEST(AnimationPointers, VisibilityChangesAtItsKeys) {
   const int values = file.accessor(std::vector<std::uint8_t>{1, 0, 1}, kUnsignedByte, "SCALAR", 3);
   for (const char* interpolation : {"STEP", "LINEAR"}) {
     AnimatedFile moved = file;
-    moved.move("/nodes/0/extensions/KHR_node_visibility/visible", moved.seconds({0, 1, 2}), values,
+    moved.move("/nodes/0/extensions/KHR_node_visibility/visible", {moved.seconds({0, 1, 2}), values},
                interpolation);
     EXPECT_FALSE(moved.at(0.9).instances.at(0).hidden);
     EXPECT_TRUE(moved.at(1.0).instances.at(0).hidden);
@@ -183,18 +184,19 @@ TEST(AnimationPointers, VisibilityChangesAtItsKeys) {
 
 TEST(AnimationPointers, IntegersThatAreNotNormalisedAreNumbers) {
   AnimatedFile file = lit_triangle();
-  file.move("/extensions/KHR_lights_punctual/lights/0/intensity", file.seconds({0, 1}),
-            file.accessor(std::vector<std::uint16_t>{100, 300}, kUnsignedShort, "SCALAR", 2));
+  file.move("/extensions/KHR_lights_punctual/lights/0/intensity",
+            {file.seconds({0, 1}),
+             file.accessor(std::vector<std::uint16_t>{100, 300}, kUnsignedShort, "SCALAR", 2)});
   EXPECT_EQ(file.at(0.5).lights.at(0).intensity.x(), 200.0f);
 }
 
 TEST(AnimationPointers, ValuesOutOfRangeAreClamped) {
   AnimatedFile file = lit_triangle();
   const int times = file.seconds({0, 1});
-  file.move("/cameras/0/perspective/yfov", times, file.scalars({-1, 4}));
-  file.move("/cameras/0/perspective/aspectRatio", times, file.scalars({-1, 1}));
-  file.move("/extensions/KHR_lights_punctual/lights/0/range", times, file.scalars({-1, 1}));
-  file.move("/extensions/KHR_lights_punctual/lights/0/intensity", times, file.scalars({-1, 1}));
+  file.move("/cameras/0/perspective/yfov", {times, file.scalars({-1, 4})});
+  file.move("/cameras/0/perspective/aspectRatio", {times, file.scalars({-1, 1})});
+  file.move("/extensions/KHR_lights_punctual/lights/0/range", {times, file.scalars({-1, 1})});
+  file.move("/extensions/KHR_lights_punctual/lights/0/intensity", {times, file.scalars({-1, 1})});
   const Scene scene = file.at(0.0);
   EXPECT_EQ(scene.cameras[0].vertical_fov, 1e-6f);
   EXPECT_EQ(scene.cameras[0].aspect, 0.0f) << "that of the picture";
@@ -235,14 +237,14 @@ TEST(AnimationPointers, ToOtherPlacesAreIgnoredWithAWarning) {
                               "materials",
                               "/meshes/0/weights"}) {
     AnimatedFile file = lit_triangle();
-    file.move(pointer, file.seconds({0, 1}), file.scalars({0, 1}));
+    file.move(pointer, {file.seconds({0, 1}), file.scalars({0, 1})});
     const Scene scene = file.at(0.5);
     ASSERT_EQ(scene.warnings.size(), 1u) << pointer;
     EXPECT_TRUE(tests::has_name(scene.warnings[0], pointer)) << scene.warnings[0];
   }
   AnimatedFile several = lit_triangle();
   for (int k = 0; k < 3; ++k)
-    several.move("/materials/0/extras/a" + std::to_string(k), several.seconds({0}), several.scalars({0}));
+    several.move("/materials/0/extras/a" + std::to_string(k), {several.seconds({0}), several.scalars({0})});
   expect_messages(several.at(0.0).warnings,
                   {{"animations[0].channels[0]", "/materials/0/extras/a0", "2 more"}});
 }
@@ -254,8 +256,8 @@ TEST(AnimationPointers, EnvironmentsOfTheFile) {
   file.root["extensions"]["EXT_lights_image_based"]["lights"] = {
       {{"intensity", 9.0}, {"specularImages", {faces}}}, {{"intensity", 7.0}, {"specularImages", {faces}}}};
   file.root["scenes"][0]["extensions"]["EXT_lights_image_based"]["light"] = 1;
-  file.move("/extensions/EXT_lights_image_based/lights/1/intensity", file.seconds({0, 1}),
-            file.scalars({2, 4}));
+  file.move("/extensions/EXT_lights_image_based/lights/1/intensity",
+            {file.seconds({0, 1}), file.scalars({2, 4})});
   EXPECT_EQ(file.at(0.5).image_light->intensity, 3.0f);
 }
 

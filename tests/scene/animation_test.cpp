@@ -37,7 +37,7 @@ void expect_rotation(AnimatedFile file, double time, const Vec3& axis, float ang
 
 TEST(Animations, WithoutATimeNothingMoves) {
   AnimatedFile file = moving_triangle({{"translation", {1, 2, 3}}});
-  file.move(0, "translation", file.seconds({0, 1}), file.vectors({5, 5, 5, 6, 6, 6}));
+  file.move(0, "translation", {file.seconds({0, 1}), file.vectors({5, 5, 5, 6, 6, 6})});
   const Scene scene = file.load({.bake_transforms = false});
   EXPECT_EQ(Vec3(scene.instances[0].transform.translation()), Vec3(1, 2, 3));
   EXPECT_TRUE(scene.warnings.empty());
@@ -48,7 +48,7 @@ TEST(Animations, WithoutATimeNothingMoves) {
 
 TEST(Animations, LinearKeysJoinByStraightLines) {
   AnimatedFile file = moving_triangle();
-  file.move(0, "translation", file.seconds({1, 3, 4}), file.vectors({0, 0, 0, 8, -4, 2, 8, 0, 0}));
+  file.move(0, "translation", {file.seconds({1, 3, 4}), file.vectors({0, 0, 0, 8, -4, 2, 8, 0, 0})});
   EXPECT_EQ(file.place_at(1.0), Vec3(0, 0, 0));
   EXPECT_EQ(file.place_at(1.5), Vec3(2, -1, 0.5f));
   EXPECT_EQ(file.place_at(3.0), Vec3(8, -4, 2));
@@ -58,7 +58,7 @@ TEST(Animations, LinearKeysJoinByStraightLines) {
 TEST(Animations, TimesOutsideTheKeysGiveTheNearestKey) {
   for (const char* interpolation : {"STEP", "LINEAR"}) {
     AnimatedFile file = moving_triangle();
-    file.move(0, "translation", file.seconds({1, 2}), file.vectors({1, 0, 0, 2, 0, 0}), interpolation);
+    file.move(0, "translation", {file.seconds({1, 2}), file.vectors({1, 0, 0, 2, 0, 0})}, interpolation);
     for (const double before : {-1e9, 0.0, 0.999}) EXPECT_EQ(file.place_at(before), Vec3(1, 0, 0));
     for (const double after : {2.0, 2.001, 1e9}) EXPECT_EQ(file.place_at(after), Vec3(2, 0, 0));
   }
@@ -67,11 +67,11 @@ TEST(Animations, TimesOutsideTheKeysGiveTheNearestKey) {
 TEST(Animations, OneKeyHoldsAlways) {
   for (const char* interpolation : {"STEP", "LINEAR"}) {
     AnimatedFile file = moving_triangle();
-    file.move(0, "translation", file.seconds({2}), file.vectors({1, 2, 3}), interpolation);
+    file.move(0, "translation", {file.seconds({2}), file.vectors({1, 2, 3})}, interpolation);
     for (const double time : {0.0, 2.0, 5.0}) EXPECT_EQ(file.place_at(time), Vec3(1, 2, 3));
   }
   AnimatedFile spline = moving_triangle();
-  spline.move(0, "translation", spline.seconds({2}), spline.vectors({9, 9, 9, 1, 2, 3, 9, 9, 9}),
+  spline.move(0, "translation", {spline.seconds({2}), spline.vectors({9, 9, 9, 1, 2, 3, 9, 9, 9})},
               "CUBICSPLINE");
   for (const double time : {0.0, 2.0, 5.0}) EXPECT_EQ(spline.place_at(time), Vec3(1, 2, 3));
 }
@@ -79,7 +79,7 @@ TEST(Animations, OneKeyHoldsAlways) {
 TEST(Animations, StepsChangeExactlyAtTheirKeys) {
   AnimatedFile file = moving_triangle();
   // 0.1 has no exact number in single precision.
-  file.move(0, "translation", file.seconds({0, 0.1f, 0.7f}), file.vectors({1, 0, 0, 2, 0, 0, 3, 0, 0}),
+  file.move(0, "translation", {file.seconds({0, 0.1f, 0.7f}), file.vectors({1, 0, 0, 2, 0, 0, 3, 0, 0})},
             "STEP");
   EXPECT_EQ(file.place_at(0.0999), Vec3(1, 0, 0));
   EXPECT_EQ(file.place_at(0.1), Vec3(2, 0, 0));
@@ -90,8 +90,10 @@ TEST(Animations, StepsChangeExactlyAtTheirKeys) {
 TEST(Animations, CubicSplinesAreThePolynomialsOfHermite) {
   AnimatedFile file = moving_triangle();
   // In-tangent, value and out-tangent of each key.
-  file.move(0, "translation", file.seconds({1, 3}),
-            file.vectors({7, 7, 7, 1, 0, -2, 0.5f, 3, 0, -1, 0, 4, 5, 1, -2, 7, 7, 7}), "CUBICSPLINE");
+  file.move(
+      0, "translation",
+      {file.seconds({1, 3}), file.vectors({7, 7, 7, 1, 0, -2, 0.5f, 3, 0, -1, 0, 4, 5, 1, -2, 7, 7, 7})},
+      "CUBICSPLINE");
   for (const double u : {0.0, 0.25, 0.5, 0.9, 1.0}) {
     const double h00 = (1 + 2 * u) * (1 - u) * (1 - u);
     const double h10 = u * (1 - u) * (1 - u);
@@ -116,7 +118,7 @@ TEST(Animations, ACubicIsReproducedByItsSpline) {
       values.insert(values.end(), {static_cast<float>(v), 0, 0});
   }
   AnimatedFile file = moving_triangle();
-  file.move(0, "translation", file.seconds(keys), file.vectors(values), "CUBICSPLINE");
+  file.move(0, "translation", {file.seconds(keys), file.vectors(values)}, "CUBICSPLINE");
   for (double t = 0.0; t <= 3.0; t += 0.17)
     EXPECT_NEAR(static_cast<double>(file.place_at(t).x()), cubic(t), 5e-6);
 }
@@ -124,8 +126,8 @@ TEST(Animations, ACubicIsReproducedByItsSpline) {
 TEST(Animations, RotationsTurnAtAConstantRate) {
   const Vec3 axis(1, -2, 0.5f);
   AnimatedFile file = moving_triangle();
-  file.move(0, "rotation", file.seconds({0, 2}),
-            file.quaternions(joined({about(axis, 0.3f), about(axis, 2.8f)})));
+  file.move(0, "rotation",
+            {file.seconds({0, 2}), file.quaternions(joined({about(axis, 0.3f), about(axis, 2.8f)}))});
   for (const double time : {0.0, 0.1, 0.5, 1.0, 1.7, 2.0})
     expect_rotation(file, time, axis, 0.3f + 1.25f * static_cast<float>(time));
 }
@@ -135,19 +137,20 @@ TEST(Animations, RotationsTakeTheShorterWay) {
   Floats to = about(axis, 0.4f * kTurn);
   for (float& v : to) v = -v;  // the same rotation
   AnimatedFile file = moving_triangle();
-  file.move(0, "rotation", file.seconds({0, 1}), file.quaternions(joined({about(axis, 0.0f), to})));
+  file.move(0, "rotation", {file.seconds({0, 1}), file.quaternions(joined({about(axis, 0.0f), to}))});
   expect_rotation(file, 0.5, axis, 0.2f * kTurn);
   AnimatedFile far = moving_triangle();
-  far.move(0, "rotation", far.seconds({0, 1}),
-           far.quaternions(joined({about(axis, 0.0f), about(axis, 0.8f * kTurn)})));
+  far.move(0, "rotation",
+           {far.seconds({0, 1}), far.quaternions(joined({about(axis, 0.0f), about(axis, 0.8f * kTurn)}))});
   expect_rotation(far, 0.5, axis, -0.1f * kTurn);
 }
 
 TEST(Animations, EqualAndNearlyEqualRotationsStayUnit) {
   const Vec3 axis(0, 0, 1);
   AnimatedFile file = moving_triangle();
-  file.move(0, "rotation", file.seconds({0, 1, 2}),
-            file.quaternions(joined({about(axis, 1.0f), about(axis, 1.0f), about(axis, 1.0f + 1e-6f)})));
+  file.move(0, "rotation",
+            {file.seconds({0, 1, 2}),
+             file.quaternions(joined({about(axis, 1.0f), about(axis, 1.0f), about(axis, 1.0f + 1e-6f)}))});
   for (const double time : {0.5, 1.5}) expect_rotation(file, time, axis, 1.0f);
 }
 
@@ -155,9 +158,11 @@ TEST(Animations, SplinesOfRotationsAreNormalised) {
   const Vec3 axis(0, 0, 1);
   const Floats none{0, 0, 0, 0};
   AnimatedFile file = moving_triangle();
-  file.move(0, "rotation", file.seconds({0, 1}),
-            file.quaternions(joined({none, about(axis, 0.0f), none, none, about(axis, kTurn / 4.0f), none})),
-            "CUBICSPLINE");
+  file.move(
+      0, "rotation",
+      {file.seconds({0, 1}),
+       file.quaternions(joined({none, about(axis, 0.0f), none, none, about(axis, kTurn / 4.0f), none}))},
+      "CUBICSPLINE");
   // Halfway, flat tangents give the mean of both keys, whose length is not 1.
   expect_rotation(file, 0.5, axis, kTurn / 8.0f);
   const double h = 0.25 * 0.25 * (3.0 - 2.0 * 0.25);
@@ -167,16 +172,16 @@ TEST(Animations, SplinesOfRotationsAreNormalised) {
 
 TEST(Animations, ARotationOfZerosIsNone) {
   AnimatedFile file = moving_triangle();
-  file.move(0, "rotation", file.seconds({0, 1}),
-            file.quaternions(joined({{0, 0, 0, 0}, about({1, 0, 0}, 1.0f)})));
+  file.move(0, "rotation",
+            {file.seconds({0, 1}), file.quaternions(joined({{0, 0, 0, 0}, about({1, 0, 0}, 1.0f)}))});
   expect_rotation(file, 0.0, {1, 0, 0}, 0.0f);
   expect_rotation(file, 0.5, {1, 0, 0}, 0.5f);
 }
 
 TEST(Animations, OneNodeHasSeveralChannels) {
   AnimatedFile file = moving_triangle({{"translation", {9, 9, 9}}, {"scale", {5, 5, 5}}});
-  file.move(0, "translation", file.seconds({0, 1}), file.vectors({0, 0, 0, 2, 4, 6}));
-  file.move(0, "scale", file.seconds({0, 2}), file.vectors({1, 1, 1, 3, 5, 1}), "LINEAR");
+  file.move(0, "translation", {file.seconds({0, 1}), file.vectors({0, 0, 0, 2, 4, 6})});
+  file.move(0, "scale", {file.seconds({0, 2}), file.vectors({1, 1, 1, 3, 5, 1})}, "LINEAR");
   const Affine t = file.transform_at(0.5);
   EXPECT_EQ(Vec3(t.translation()), Vec3(1, 2, 3));
   EXPECT_TRUE(t.linear().isApprox(Vec3(1.5f, 2, 1).asDiagonal().toDenseMatrix()));
@@ -184,7 +189,7 @@ TEST(Animations, OneNodeHasSeveralChannels) {
 
 TEST(Animations, ValuesThatDoNotMoveStay) {
   AnimatedFile file = moving_triangle({{"translation", {1, 2, 3}}});
-  file.move(0, "scale", file.seconds({0}), file.vectors({2, 2, 2}));
+  file.move(0, "scale", {file.seconds({0}), file.vectors({2, 2, 2})});
   EXPECT_EQ(file.place_at(0.0), Vec3(1, 2, 3));
 }
 
@@ -192,23 +197,25 @@ TEST(Animations, ChildrenFollow) {
   AnimatedFile file;
   const int child = file.add("nodes", {{"mesh", file.mesh(file.triangle())}, {"translation", {1, 0, 0}}});
   const int parent = file.node({{"children", {child}}});
-  file.move(parent, "rotation", file.seconds({0, 1}),
-            file.quaternions(joined({about({0, 0, 1}, 0.0f), about({0, 0, 1}, kTurn / 4.0f)})));
+  file.move(parent, "rotation",
+            {file.seconds({0, 1}),
+             file.quaternions(joined({about({0, 0, 1}, 0.0f), about({0, 0, 1}, kTurn / 4.0f)}))});
   EXPECT_TRUE(file.place_at(1.0).isApprox(Vec3(0, 1, 0), 1e-6f));
 }
 
 TEST(Animations, NormalisedIntegersAreNumbersUpToOne) {
   const float s = std::sqrt(0.5f);
   AnimatedFile bytes = moving_triangle();
-  bytes.move(0, "rotation", bytes.seconds({0, 1}),
-             bytes.accessor(std::vector<std::int8_t>{0, 0, 0, 127, 0, 0, 90, 90}, kByte, "VEC4", 2,
-                            {{"normalized", true}}));
+  bytes.move(0, "rotation",
+             {bytes.seconds({0, 1}), bytes.accessor(std::vector<std::int8_t>{0, 0, 0, 127, 0, 0, 90, 90},
+                                                    kByte, "VEC4", 2, {{"normalized", true}})});
   expect_rotation(bytes, 1.0, {0, 0, 1}, kTurn / 4.0f);
   AnimatedFile shorts = moving_triangle();
   const auto half = static_cast<std::int16_t>(std::lround(32767.0f * s));
-  shorts.move(0, "rotation", shorts.seconds({0, 1}),
-              shorts.accessor(std::vector<std::int16_t>{0, 0, 0, 32767, half, 0, 0, half}, kShort, "VEC4", 2,
-                              {{"normalized", true}}));
+  shorts.move(
+      0, "rotation",
+      {shorts.seconds({0, 1}), shorts.accessor(std::vector<std::int16_t>{0, 0, 0, 32767, half, 0, 0, half},
+                                               kShort, "VEC4", 2, {{"normalized", true}})});
   expect_rotation(shorts, 1.0, {1, 0, 0}, kTurn / 4.0f);
   expect_rotation(shorts, 0.5, {1, 0, 0}, kTurn / 8.0f);
 }
@@ -230,7 +237,7 @@ Vec3 first_vertex(AnimatedFile& file, double time) {
 
 TEST(Animations, WeightsOfMorphTargetsMoveTogether) {
   AnimatedFile file = morphing_triangle();
-  file.move(0, "weights", file.seconds({0, 1}), file.scalars({0, 1, 1, 0.5f}));
+  file.move(0, "weights", {file.seconds({0, 1}), file.scalars({0, 1, 1, 0.5f})});
   EXPECT_EQ(first_vertex(file, 0.0), Vec3(0, 1, 0));
   EXPECT_EQ(first_vertex(file, 0.5), Vec3(0.5f, 0.75f, 0));
   EXPECT_EQ(first_vertex(file, 1.0), Vec3(1, 0.5f, 0));
@@ -238,7 +245,7 @@ TEST(Animations, WeightsOfMorphTargetsMoveTogether) {
 
 TEST(Animations, SplinesOfWeightsHaveAllInTangentsThenAllValues) {
   AnimatedFile file = morphing_triangle();
-  file.move(0, "weights", file.seconds({0, 1}), file.scalars({9, 9, 0, 1, 0, 0, 0, 0, 1, 0.5f, 9, 9}),
+  file.move(0, "weights", {file.seconds({0, 1}), file.scalars({9, 9, 0, 1, 0, 0, 0, 0, 1, 0.5f, 9, 9})},
             "CUBICSPLINE");
   EXPECT_EQ(first_vertex(file, 0.0), Vec3(0, 1, 0));
   EXPECT_EQ(first_vertex(file, 0.5), Vec3(0.5f, 0.75f, 0));
@@ -246,9 +253,9 @@ TEST(Animations, SplinesOfWeightsHaveAllInTangentsThenAllValues) {
 
 TEST(Animations, WeightsMayBeNormalisedBytes) {
   AnimatedFile file = morphing_triangle();
-  file.move(0, "weights", file.seconds({0, 1}),
-            file.accessor(std::vector<std::uint8_t>{0, 255, 51, 102}, kUnsignedByte, "SCALAR", 4,
-                          {{"normalized", true}}));
+  file.move(0, "weights",
+            {file.seconds({0, 1}), file.accessor(std::vector<std::uint8_t>{0, 255, 51, 102}, kUnsignedByte,
+                                                 "SCALAR", 4, {{"normalized", true}})});
   EXPECT_EQ(first_vertex(file, 0.0), Vec3(0, 1, 0));
   EXPECT_TRUE(first_vertex(file, 1.0).isApprox(Vec3(0.2f, 0.4f, 0), 1e-6f));
 }
@@ -264,7 +271,7 @@ TEST(Animations, SkinsFollowTheirJoints) {
   const int joint = file.node(json::object());
   file.add("skins", {{"joints", {joint}}});
   file.node({{"mesh", mesh}, {"skin", 0}});
-  file.move(joint, "translation", file.seconds({0, 2}), file.vectors({0, 0, 0, 0, 0, 4}));
+  file.move(joint, "translation", {file.seconds({0, 2}), file.vectors({0, 0, 0, 0, 0, 4})});
   EXPECT_EQ(first_vertex(file, 0.5), Vec3(0, 0, 1));
   EXPECT_EQ(first_vertex(file, 2.0), Vec3(0, 0, 4));
 }
@@ -274,7 +281,7 @@ TEST(Animations, CamerasAndLightsFollowTheirNodes) {
   file.add("cameras", {{"type", "perspective"}, {"perspective", {{"yfov", 1.0}, {"znear", 0.1}}}});
   file.root["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}}};
   const int node = file.node({{"camera", 0}, {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
-  file.move(node, "translation", file.seconds({0, 1}), file.vectors({0, 0, 0, 0, 2, 0}));
+  file.move(node, "translation", {file.seconds({0, 1}), file.vectors({0, 0, 0, 0, 2, 0})});
   const Scene scene = file.at(0.5);
   EXPECT_EQ(Vec3(scene.cameras[0].transform.translation()), Vec3(0, 1, 0));
   EXPECT_EQ(scene.lights[0].position, Vec3(0, 1, 0));
@@ -284,7 +291,7 @@ TEST(Animations, AMatrixIsTakenApart) {
   AnimatedFile file = moving_triangle({{"matrix", {0, -2, 0, 0, -3, 0, 0, 0, 0, 0, 4, 0, 5, 6, 7, 1}}});
   const Eigen::Matrix3f still =
       AnimatedFile(file).load({.bake_transforms = false}).instances[0].transform.linear();
-  file.move(0, "translation", file.seconds({0}), file.vectors({1, 1, 1}));
+  file.move(0, "translation", {file.seconds({0}), file.vectors({1, 1, 1})});
   const Scene scene = file.at(0.0);
   EXPECT_EQ(Vec3(scene.instances[0].transform.translation()), Vec3(1, 1, 1));
   EXPECT_LT((scene.instances[0].transform.linear() - still).cwiseAbs().maxCoeff(), 1e-6f);
@@ -294,8 +301,8 @@ TEST(Animations, AMatrixIsTakenApart) {
 TEST(Animations, ADocumentShowsAnyTimesInAnyOrder) {
   AnimatedFile file = morphing_triangle();
   file.root["nodes"][0]["translation"] = {8, 8, 8};
-  file.move(0, "translation", file.seconds({0, 1}), file.vectors({0, 0, 0, 2, 4, 6}));
-  file.move(0, "weights", file.seconds({0, 1}), file.scalars({0, 1, 1, 0.5f}));
+  file.move(0, "translation", {file.seconds({0, 1}), file.vectors({0, 0, 0, 2, 4, 6})});
+  file.move(0, "weights", {file.seconds({0, 1}), file.scalars({0, 1, 1, 0.5f})});
   const TemporaryFolder folder;
   gltf::Warnings warnings;
   gltf::Document document(file.write(folder), {.time = 0.0}, warnings);

@@ -84,7 +84,7 @@ TEST(SceneFile, LightsThatAreAdjustedStayAdjusted) {
   file.node({{"mesh", file.mesh(file.triangle())}});
   file.root["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}, {"name", "lamp"}}};
   file.node({{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
-  file.move(1, "translation", file.seconds({0, 1}), file.vectors({0, 0, 0, 4, 0, 0}));
+  file.move(1, "translation", {file.seconds({0, 1}), file.vectors({0, 0, 0, 4, 0, 0})});
   tests::TemporaryFolder folder;
   SceneFile open(file.write(folder), {.time = 0.0, .lights = {{"lamp", Color(3, 2, 1)}}});
   Scene scene = open.load();
@@ -97,7 +97,7 @@ TEST(SceneFile, LightsThatAreAdjustedStayAdjusted) {
 
 TEST(SceneFile, WhatIsScaledToNothingIsHiddenForThatTime) {
   AnimatedFile file = moving_triangle();
-  file.move(0, "scale", file.seconds({0, 1, 2}), file.vectors({1, 1, 1, 0, 0, 0, 2, 2, 2}), "STEP");
+  file.move(0, "scale", {file.seconds({0, 1, 2}), file.vectors({1, 1, 1, 0, 0, 0, 2, 2, 2})}, "STEP");
   tests::TemporaryFolder folder;
   SceneFile open(file.write(folder), {.time = 1.0});
   Scene scene = open.load();
@@ -110,7 +110,7 @@ TEST(SceneFile, WhatIsScaledToNothingIsHiddenForThatTime) {
 
 TEST(SceneFile, AFlatInstanceGetsAThickness) {
   AnimatedFile file = moving_triangle();
-  file.move(0, "scale", file.seconds({0, 1}), file.vectors({1, 1, 1, 3, 2, 0}));
+  file.move(0, "scale", {file.seconds({0, 1}), file.vectors({1, 1, 1, 3, 2, 0})});
   const Affine flat = file.transform_at(1.0);
   const Eigen::Matrix3f m = flat.linear();
   EXPECT_GT(std::abs(m.determinant()), 0.0f);

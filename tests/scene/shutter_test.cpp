@@ -64,7 +64,7 @@ TEST(Shutter, OnlyWhatMovesHasStates) {
 
 TEST(Shutter, MovesLinearlyBetweenItsStates) {
   AnimatedFile file = moving_triangle();
-  file.move(0, "translation", file.seconds({0, 1}), file.vectors({0, 0, 0, 8, 0, 0}));
+  file.move(0, "translation", {file.seconds({0, 1}), file.vectors({0, 0, 0, 8, 0, 0})});
   const Scene scene = file.load({.time = 0.5, .shutter = 0.5, .bake_transforms = false});
   const std::array<Vec3, 3> middle = world_triangle(scene, scene.instances[0], 0);
   for (const float time : {0.0f, 0.1f, 0.5f, 0.77f, 1.0f}) {
@@ -79,9 +79,9 @@ TEST(Shutter, LightsTurnAndMove) {
   file.node({{"mesh", file.mesh(file.triangle())}});
   file.root["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "spot"}, {"spot", json::object()}}};
   file.node({{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
-  file.move(1, "translation", file.seconds({0, 1}), file.vectors({0, 0, 0, 4, 0, 0}));
+  file.move(1, "translation", {file.seconds({0, 1}), file.vectors({0, 0, 0, 4, 0, 0})});
   const float half = std::sqrt(0.5f);
-  file.move(1, "rotation", file.seconds({0, 1}), file.quaternions({0, 0, 0, 1, 0, half, 0, half}));
+  file.move(1, "rotation", {file.seconds({0, 1}), file.quaternions({0, 0, 0, 1, 0, half, 0, half})});
   const Scene scene = file.load({.time = 0.5, .shutter = 1.0});
   const std::vector<LightPlace>& states = scene.shutter.lights.at(0);
   ASSERT_EQ(states.size(), std::size_t{kShutterKeys});

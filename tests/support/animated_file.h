@@ -23,20 +23,27 @@ struct AnimatedFile : GltfBuilder {
     return add("animations", {{"name", name}, {"channels", json::array()}, {"samplers", json::array()}});
   }
 
+  /// Accessors. In braces the times are made first, so that every compiler numbers them alike.
+  struct Keys {
+    int times;
+    int values;
+  };
+
   /// Adds a channel to the last animation, or to a first one.
-  void channel(json target, int times, int values, const char* interpolation = "LINEAR") {
+  void channel(json target, Keys keys, const char* interpolation = "LINEAR") {
     if (!root.contains("animations")) animation("only");
     json& last = root["animations"].back();
     last["channels"].push_back({{"sampler", last["samplers"].size()}, {"target", std::move(target)}});
-    last["samplers"].push_back({{"input", times}, {"output", values}, {"interpolation", interpolation}});
+    last["samplers"].push_back(
+        {{"input", keys.times}, {"output", keys.values}, {"interpolation", interpolation}});
   }
 
-  void move(int node, const char* path, int times, int values, const char* interpolation = "LINEAR") {
-    channel({{"node", node}, {"path", path}}, times, values, interpolation);
+  void move(int node, const char* path, Keys keys, const char* interpolation = "LINEAR") {
+    channel({{"node", node}, {"path", path}}, keys, interpolation);
   }
-  void move(const std::string& pointer, int times, int values, const char* interpolation = "LINEAR") {
-    channel({{"path", "pointer"}, {"extensions", {{"KHR_animation_pointer", {{"pointer", pointer}}}}}}, times,
-            values, interpolation);
+  void move(const std::string& pointer, Keys keys, const char* interpolation = "LINEAR") {
+    channel({{"path", "pointer"}, {"extensions", {{"KHR_animation_pointer", {{"pointer", pointer}}}}}}, keys,
+            interpolation);
   }
 
   Scene at(double time, const std::string& animation = "") {

@@ -15,6 +15,7 @@
 #include "apps/sweep/presets.h"
 #include "apps/sweep/request.h"
 #include "apps/terminal/errors.h"
+#include "tests/apps/sweep/sweep_records.h"
 #include "tests/support/messages.h"
 
 namespace gatelight::apps {
@@ -40,12 +41,6 @@ SweepPlan plan_of(FlagValues base, std::vector<std::string> vary = {}, bool no_p
   words.preset = preset;
   words.train_steps = "8,16";
   return make_plan(make_request(words));
-}
-
-std::vector<std::string> labels(const SweepPlan& plan) {
-  std::vector<std::string> labels;
-  for (const PlannedSeries& series : plan.scenes[0].series) labels.push_back(series.label);
-  return labels;
 }
 
 TEST(SweepPlan, CombinesAllValuesOfAllAxes) {
@@ -293,86 +288,6 @@ TEST(SweepPlan, ASceneMayHaveFlagsOfItsOwn) {
     words.scene_flags = {bad};
     EXPECT_THROW(make_request(words), UsageError) << bad;
   }
-}
-
-SweepPlan plan_of_runs(std::vector<std::string> runs, FlagValues base = {}) {
-  SweepWords words;
-  words.scenes = {"room.glb"};
-  words.base = std::move(base);
-  words.runs = std::move(runs);
-  words.spp = "2,4";
-  return make_plan(make_request(words));
-}
-
-TEST(SweepPlan, ANamedRunIsWhatRenderMakesOfItsFlags) {
-  const SweepPlan plan = plan_of_runs({"fine: --preset standard --max-depth=5", "deep: --preset standard"},
-                                      {{"--size", "64x36"}, {"--max-depth", "9"}});
-  // Flags of its own win over those for all cells. Paths follow where the reference depends on a flag.
-  ASSERT_THAT(labels(plan),
-              ElementsAre("path", "path denoised", "fine", "path #2", "path denoised #2", "deep"));
-  const std::vector<PlannedSeries>& all = plan.scenes[0].series;
-  for (const std::size_t i : {2u, 5u}) {
-    EXPECT_TRUE(all[i].named);
-    EXPECT_TRUE(all[i].settings.render.choose_integrator) << "as --preset standard has it";
-    EXPECT_FALSE(all[i].settings.render.cache.train_steps.has_value());
-    EXPECT_EQ(all[i].settings.render.max_depth, i == 2 ? 5 : 9);
-    EXPECT_EQ(all[i - 2].settings.render.max_depth, i == 2 ? 5 : 9);
-    EXPECT_THAT(all[i - 1].points, ElementsAre(2, 4));
-    EXPECT_EQ(run_name(all[i], 0), all[i].label);
-  }
-  EXPECT_EQ(run_name(all[1], 4), "path denoised, 4 spp");
-  EXPECT_EQ(plan.cell_count(), 2u * 5u);
-  const std::string command = cell_command(all[5], "room.glb", 3, 0);
-  EXPECT_THAT(command, HasSubstr("--preset standard"));
-  EXPECT_THAT(command, HasSubstr("--seed 3 -o out.exr"));
-  EXPECT_THAT(command, Not(HasSubstr("--spp")));
-}
-
-TEST(SweepPlan, PathsBesideNamedRunsHaveOnlyTheFlagsForAllCells) {
-  const SweepPlan plan = plan_of_runs({"two: --integrator path --spp 2 --sampler independent",
-                                       "clamped: --preset preview --clamp 3 --prefilter accurate",
-                                       "occluded: --integrator nao --train-steps 8"},
-                                      {{"--threads", "1"}});
-  ASSERT_THAT(labels(plan), ElementsAre("path", "two", "path denoised", "clamped", "ao", "occluded"));
-  const std::vector<PlannedSeries>& all = plan.scenes[0].series;
-  EXPECT_EQ(all[1].settings.render.spp, 2);
-  for (const PlannedSeries& series : all) {
-    EXPECT_EQ(series.settings.render.threads, 1) << series.label;
-    if (series.named) continue;
-    EXPECT_EQ(series.settings.render.sampler, renderer::RenderOptions().sampler) << series.label;
-    EXPECT_EQ(series.settings.render.clamp, 0.0f) << series.label;
-  }
-  EXPECT_EQ(all[5].settings.render.cache.train_steps, 8);
-}
-
-TEST(SweepPlan, RunsThatDifferInTheChoiceOfTheIntegratorAreNotMerged) {
-  EXPECT_THAT(labels(plan_of_runs(
-                  {"auto: --preset final", "nrc: --preset final --integrator nrc", "same: --preset final"})),
-              ElementsAre("path", "path denoised", "auto", "nrc"));
-}
-
-TEST(SweepPlan, NamedRunsMayBeCombinedWithAxesAndStandBesideAPreset) {
-  SweepWords words;
-  words.scenes = {"room.glb"};
-  words.no_plain = true;
-  words.runs = {"bare: --preset bare", "wide: --preset bare --hidden 64"};
-  words.vary = {"hidden=16,32"};
-  EXPECT_THAT(labels(make_plan(make_request(words))),
-              ElementsAre("bare hidden 16", "bare hidden 32", "wide hidden 64"));
-  words.vary.clear();
-  words.preset = "finished";
-  EXPECT_THAT(labels(make_plan(make_request(words))),
-              ElementsAre("preview", "standard", "final", "bare", "wide"));
-}
-
-TEST(SweepPresets, FinishedPicturesAreNamedRunsBesidePathsOfBothKinds) {
-  SweepWords words;
-  words.scenes = {"room.glb"};
-  words.preset = "finished";
-  const SweepPlan plan = make_plan(make_request(words));
-  EXPECT_THAT(labels(plan), ElementsAre("path", "path denoised", "preview", "standard", "final"));
-  EXPECT_THAT(plan.scenes[0].series[1].points, ElementsAre(4, 8, 32, 128));
-  EXPECT_EQ(plan.seeds.size(), 2u);
 }
 
 TEST(SweepPresets, EachIsAPlanOfRowsForBothOfThePapersCaches) {

@@ -2,6 +2,8 @@
 // A plan of one scene, and what a cell of it measured.
 
 #include <limits>
+#include <string>
+#include <vector>
 
 #include "apps/sweep/cell_record.h"
 #include "apps/sweep/request.h"
@@ -14,6 +16,13 @@ inline SweepPlan small_plan() {
   words.vary = {"stack=adaptive,1;adaptive"};
   words.train_steps = "4,8";
   return make_plan(make_request(words));
+}
+
+/// Of the series of the first scene.
+inline std::vector<std::string> labels(const SweepPlan& plan) {
+  std::vector<std::string> labels;
+  for (const PlannedSeries& series : plan.scenes[0].series) labels.push_back(series.label);
+  return labels;
 }
 
 inline renderer::RenderStatistics statistics() {
