@@ -14,7 +14,6 @@
 namespace gatelight::apps {
 namespace {
 
-using nlohmann::json;
 using nlohmann::ordered_json;
 using renderer::Integrator;
 using ::testing::ElementsAre;
@@ -124,7 +123,7 @@ TEST(CacheRecipe, ExistsOnlyWithACache) {
   EXPECT_FALSE(path.contains("batch"));
   EXPECT_FALSE(path.contains("train-steps"));
   EXPECT_EQ(cache["train-steps"], "auto");
-  EXPECT_EQ(cache["cache-roughness"], json(0.3)) << "the digits of a float";
+  EXPECT_EQ(cache["cache-roughness"], ordered_json(0.3)) << "the digits of a float";
   EXPECT_EQ(cache["cache-out"], "o");
   const ordered_json reproducible = resolved_options(
       read_flags({"--preset", "final", "--cache-out", "o", "--checkpoint", "c", "--reproducible"}));
