@@ -14,7 +14,7 @@ namespace gatelight {
 namespace {
 
 // libjpeg leaves a failed call by longjmp, so encode() holds no objects with a destructor.
-struct Encoder {
+struct JpegEncoder {
   jpeg_compress_struct info{};
   jpeg_error_mgr errors{};
   std::jmp_buf failed{};
@@ -22,22 +22,22 @@ struct Encoder {
   unsigned char* bytes = nullptr;
   unsigned long size = 0;
 
-  Encoder() {
+  JpegEncoder() {
     info.err = jpeg_std_error(&errors);
     info.client_data = this;
     errors.error_exit = [](j_common_ptr common) {
-      auto& self = *static_cast<Encoder*>(common->client_data);
+      auto& self = *static_cast<JpegEncoder*>(common->client_data);
       common->err->format_message(common, self.message);
       std::longjmp(self.failed, 1);
     };
     errors.output_message = [](j_common_ptr) {};
   }
-  ~Encoder() {
+  ~JpegEncoder() {
     jpeg_destroy_compress(&info);
     std::free(bytes);
   }
-  Encoder(const Encoder&) = delete;
-  Encoder& operator=(const Encoder&) = delete;
+  JpegEncoder(const JpegEncoder&) = delete;
+  JpegEncoder& operator=(const JpegEncoder&) = delete;
 
   bool encode(const std::uint8_t* rgb, int width, int height, int quality, bool halve_color) {
     if (setjmp(failed) != 0) return false;
@@ -65,7 +65,7 @@ struct Encoder {
 
 std::vector<std::uint8_t> encode_jpeg(const std::vector<std::uint8_t>& rgb, int width, int height,
                                       int quality, bool halve_color) {
-  Encoder encoder;
+  JpegEncoder encoder;
   if (!encoder.encode(rgb.data(), width, height, quality, halve_color))
     throw std::runtime_error(std::string("cannot make a JPEG: ") + encoder.message);
   return {encoder.bytes, encoder.bytes + encoder.size};

@@ -17,14 +17,14 @@ namespace {
 constexpr int kCompressionLevel = 3;
 
 // libpng leaves a failed call by longjmp, so write() holds no objects with a destructor.
-struct Encoder {
+struct PngEncoder {
   png_structp png = nullptr;
   png_infop info = nullptr;
   std::vector<std::uint8_t> file;
   bool out_of_memory = false;
   char message[256] = "";
 
-  Encoder() {
+  PngEncoder() {
     png = png_create_write_struct(PNG_LIBPNG_VER_STRING, this, on_error, [](png_structp, png_const_charp) {});
     if (png != nullptr) info = png_create_info_struct(png);
     if (info == nullptr) {
@@ -32,12 +32,12 @@ struct Encoder {
       throw std::bad_alloc();
     }
   }
-  ~Encoder() { png_destroy_write_struct(&png, &info); }
-  Encoder(const Encoder&) = delete;
-  Encoder& operator=(const Encoder&) = delete;
+  ~PngEncoder() { png_destroy_write_struct(&png, &info); }
+  PngEncoder(const PngEncoder&) = delete;
+  PngEncoder& operator=(const PngEncoder&) = delete;
 
   [[noreturn]] static void on_error(png_structp png, png_const_charp message) {
-    auto* self = static_cast<Encoder*>(png_get_error_ptr(png));
+    auto* self = static_cast<PngEncoder*>(png_get_error_ptr(png));
     std::strncpy(self->message, message, sizeof self->message - 1);
     png_longjmp(png, 1);
   }
@@ -52,7 +52,7 @@ struct Encoder {
   }
 
   static void on_write(png_structp png, png_bytep bytes, std::size_t count) {
-    auto* self = static_cast<Encoder*>(png_get_io_ptr(png));
+    auto* self = static_cast<PngEncoder*>(png_get_io_ptr(png));
     if (!self->append(bytes, count)) png_error(png, "out of memory");
   }
 
@@ -76,7 +76,7 @@ struct Encoder {
 
 std::vector<std::uint8_t> encode(std::span<const std::byte> pixels, int width, int height, int channels,
                                  int bits) {
-  Encoder encoder;
+  PngEncoder encoder;
   if (!encoder.write(reinterpret_cast<const std::uint8_t*>(pixels.data()), width, height, channels, bits)) {
     if (encoder.out_of_memory) throw std::bad_alloc();
     throw std::runtime_error(encoder.message);

@@ -8,6 +8,7 @@
 #include <vulkan/vulkan_raii.hpp>
 
 #include "neural/vulkan/device_choice.h"
+#include "neural/vulkan/devices.h"
 
 namespace gatelight::neural::vulkan {
 
