@@ -10,27 +10,13 @@ function(gatelight_precompile target)
   endif()
 endfunction()
 
-# gatelight_compile_together(<target> <name> <source>...)
+# gatelight_compile_together(<target>)
 #
-# Compiles several sources of the target to one object, where their includes take longer than their own code. Their
-# unnamed namespaces become one, so two functions there must not have the same name. Other sources are compiled separately.
-function(gatelight_compile_together target name)
-  if(NOT GATELIGHT_FAST_BUILD)
-    return()
+# Compiles eight sources of the target at a time to one object, because their includes take longer than their own code.
+# Their unnamed namespaces become one, so neighbours must not have two functions or constants of the same name. A source
+# with the property SKIP_UNITY_BUILD_INCLUSION is compiled separately.
+function(gatelight_compile_together target)
+  if(GATELIGHT_FAST_BUILD)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE BATCH UNITY_BUILD_BATCH_SIZE 8)
   endif()
-  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
-  set_source_files_properties(${ARGN} TARGET_DIRECTORY ${target} PROPERTIES UNITY_GROUP ${name})
-endfunction()
-
-# gatelight_compile_rooms_together(<target> <folder>...)
-#
-# Does the same for all sources of the target in each folder: one object per folder.
-function(gatelight_compile_rooms_together target)
-  get_target_property(sources ${target} SOURCES)
-  foreach(room IN LISTS ARGN)
-    set(of_room ${sources})
-    list(FILTER of_room INCLUDE REGEX "^${room}/.*[.]cpp$")
-    string(MAKE_C_IDENTIFIER ${room} name)
-    gatelight_compile_together(${target} ${name} ${of_room})
-  endforeach()
 endfunction()

@@ -8,7 +8,7 @@
 namespace gatelight::fuzz {
 namespace {
 
-void load(const std::filesystem::path& path) {
+void import_cache(const std::filesystem::path& path) {
   const MadeCache& made = made_cache();
   try {
     renderer::CacheFile file(path);
@@ -25,8 +25,8 @@ void load(const std::filesystem::path& path) {
 
 void cache_file(Bytes bytes) {
   static const InputFile file("cache");
-  load(file.write(bytes));
-  load(file.write(with_right_digest(bytes)));
+  import_cache(file.write(bytes));
+  import_cache(file.write(with_right_digest(bytes)));
 }
 
 }  // namespace gatelight::fuzz

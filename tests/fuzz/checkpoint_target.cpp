@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kSamples = 8;
 
-void load(const std::filesystem::path& path) {
+void resume_from(const std::filesystem::path& path) {
   const MadeCache& made = made_cache();
   try {
     renderer::Checkpoint checkpoint(path);
@@ -38,8 +38,8 @@ void load(const std::filesystem::path& path) {
 
 void checkpoint(Bytes bytes) {
   static const InputFile file("checkpoint");
-  load(file.write(bytes));
-  load(file.write(with_right_digest(bytes)));
+  resume_from(file.write(bytes));
+  resume_from(file.write(with_right_digest(bytes)));
 }
 
 }  // namespace gatelight::fuzz

@@ -196,7 +196,7 @@ void PrintTo(const Damage& damage, std::ostream* out) {
   *out << damage.pointer << " = " << damage.value;
 }
 
-class DamagedFile : public testing::TestWithParam<Damage> {
+class DamagedFile : public ::testing::TestWithParam<Damage> {
  protected:
   static GltfBuilder whole() {
     GltfBuilder file;
@@ -240,7 +240,7 @@ const double kHuge = 1e300;
 
 INSTANTIATE_TEST_SUITE_P(
     Numbers, DamagedFile,
-    testing::Values(
+    ::testing::Values(
         Damage{"/accessors/0/count", -1, "accessors[0].count"},
         Damage{"/accessors/0/count", 4, "accessors[0]"},
         Damage{"/accessors/0/count", 4611686018427387904, "count"},
@@ -273,7 +273,7 @@ INSTANTIATE_TEST_SUITE_P(
 
 INSTANTIATE_TEST_SUITE_P(
     Structure, DamagedFile,
-    testing::Values(
+    ::testing::Values(
         Damage{"/meshes/0/primitives/0/indices", 9, "indices"},
         Damage{"/meshes/0/primitives/0/material", 0, "material"},
         Damage{"/meshes/0/primitives/0/attributes/POSITION", 50, "POSITION"},

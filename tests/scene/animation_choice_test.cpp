@@ -91,7 +91,7 @@ void PrintTo(const Flaw& flaw, std::ostream* out) {
   *out << flaw.name;
 }
 
-class BrokenAnimation : public testing::TestWithParam<Flaw> {};
+class BrokenAnimation : public ::testing::TestWithParam<Flaw> {};
 
 /// The first animation is sound, the second one has the flaw.
 AnimatedFile with_flaw(const Flaw& flaw) {
@@ -259,7 +259,7 @@ const Flaw kFlaws[] = {
      {"animations[1].channels[1]", "/nodes/0/translation"}},
 };
 
-INSTANTIATE_TEST_SUITE_P(Flaws, BrokenAnimation, testing::ValuesIn(kFlaws),
+INSTANTIATE_TEST_SUITE_P(Flaws, BrokenAnimation, ::testing::ValuesIn(kFlaws),
                          [](const auto& test) { return test.param.name; });
 
 TEST(AnimationChoice, WeightsOfAnotherNumberThanTargetsAreRefused) {

@@ -85,7 +85,7 @@ std::vector<std::uint8_t> rich_file() {
   return file.glb();
 }
 
-class Mutation : public testing::Test {
+class Mutation : public ::testing::Test {
  protected:
   void try_bytes(const std::vector<std::uint8_t>& bytes, const std::string& what) {
     write_bytes(path_, bytes);

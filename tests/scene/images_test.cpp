@@ -7,7 +7,7 @@
 namespace gatelight::scene {
 namespace {
 
-using testing::ElementsAre;
+using ::testing::ElementsAre;
 using tests::expect_messages;
 using tests::expect_names;
 

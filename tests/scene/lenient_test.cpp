@@ -72,7 +72,7 @@ void PrintTo(const Flaw& flaw, std::ostream* out) {
   *out << flaw.pointer << " = " << flaw.value;
 }
 
-class LenientFile : public testing::TestWithParam<Flaw> {};
+class LenientFile : public ::testing::TestWithParam<Flaw> {};
 
 TEST_P(LenientFile, LoadsAsWithoutTheValueWithOneWarning) {
   const auto& [pointer, value, name, instead] = GetParam();
@@ -93,7 +93,7 @@ TEST_P(LenientFile, LoadsAsWithoutTheValueWithOneWarning) {
 
 INSTANTIATE_TEST_SUITE_P(
     Values, LenientFile,
-    testing::Values(
+    ::testing::Values(
         Flaw{"/scene", 7, "scene"}, Flaw{"/scenes/0/name", 5, "scenes[0].name"},
         Flaw{"/extensionsUsed", "KHR_lights_punctual", "extensionsUsed"},
         Flaw{"/asset/version", 2.0, "asset.version", "\"2.0\""}, Flaw{"/nodes/0/name", 5, "nodes[0].name"},

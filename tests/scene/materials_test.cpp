@@ -8,7 +8,7 @@
 namespace gatelight::scene {
 namespace {
 
-using testing::ElementsAre;
+using ::testing::ElementsAre;
 using tests::expect_messages;
 
 /// Loads a scene of one triangle with the given material and two textures (of one missing image).

@@ -20,7 +20,7 @@ void PrintTo(const Known& known, std::ostream* out) {
   *out << known.file;
 }
 
-class RealScene : public testing::TestWithParam<Known> {};
+class RealScene : public ::testing::TestWithParam<Known> {};
 
 TEST_P(RealScene, HasItsKnownTrianglesAndBounds) {
   const char* scenes = std::getenv("GATELIGHT_SCENES");
@@ -42,17 +42,16 @@ TEST_P(RealScene, HasItsKnownTrianglesAndBounds) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Files, RealScene,
-                         testing::Values(Known{"cornell/cornell-area.glb", 36, Vec3(-1, 0, -1), Vec3(1, 2, 1),
-                                               0},
-                                         Known{"sponza/sponza.glb", 262267, Vec3(-12.0f, -0.8f, -7.4f),
-                                               Vec3(11.2f, 8.9f, 6.9f), 33},
-                                         Known{"country-kitchen/country-kitchen.glb", 1050941,
-                                               Vec3(-3.1f, 0, -3.2f), Vec3(3.8f, 3.4f, 5.5f), 11},
-                                         Known{"salle-de-bain/salle-de-bain.glb", 449049,
-                                               Vec3(-1.7f, 0, -2.3f), Vec3(1.7f, 3.4f, 2.3f), 1},
-                                         Known{"bistro-exterior/bistro-exterior.glb", 1308885,
-                                               Vec3(-57.9f, -1.2f, -84.6f), Vec3(25.1f, 26.5f, 36.0f), 66}));
+INSTANTIATE_TEST_SUITE_P(
+    Files, RealScene,
+    ::testing::Values(
+        Known{"cornell/cornell-area.glb", 36, Vec3(-1, 0, -1), Vec3(1, 2, 1), 0},
+        Known{"sponza/sponza.glb", 262267, Vec3(-12.0f, -0.8f, -7.4f), Vec3(11.2f, 8.9f, 6.9f), 33},
+        Known{"country-kitchen/country-kitchen.glb", 1050941, Vec3(-3.1f, 0, -3.2f), Vec3(3.8f, 3.4f, 5.5f),
+              11},
+        Known{"salle-de-bain/salle-de-bain.glb", 449049, Vec3(-1.7f, 0, -2.3f), Vec3(1.7f, 3.4f, 2.3f), 1},
+        Known{"bistro-exterior/bistro-exterior.glb", 1308885, Vec3(-57.9f, -1.2f, -84.6f),
+              Vec3(25.1f, 26.5f, 36.0f), 66}));
 
 }  // namespace
 }  // namespace gatelight::scene

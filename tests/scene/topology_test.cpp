@@ -6,7 +6,7 @@
 namespace gatelight::scene {
 namespace {
 
-using testing::ElementsAre;
+using ::testing::ElementsAre;
 using tests::expect_messages;
 using Triangle = std::array<std::uint32_t, 3>;
 

@@ -10,7 +10,7 @@
 namespace gatelight::apps {
 namespace {
 
-using testing::ElementsAre;
+using ::testing::ElementsAre;
 using tests::expect_refusal;
 
 std::vector<int> numbers(const std::string& text) {
@@ -72,7 +72,7 @@ TEST(FrameFlags, ExcludeWhatHasNoMeaningWithThem) {
   tests::expect_message(groups({"--denoiser", "auto"}), {"--frame-groups", "--temporal"});
   tests::expect_message(groups({"--aov", "motion"}), {"--frame-groups", "motion"});
   tests::expect_message(groups({"--checkpoint", "state"}), {"--frame-groups", "--checkpoint"});
-  EXPECT_THAT(groups({"--denoiser", "auto", "--temporal", "off"}), testing::StartsWith("--output"));
+  EXPECT_THAT(groups({"--denoiser", "auto", "--temporal", "off"}), ::testing::StartsWith("--output"));
   EXPECT_EQ(refused({"--frames", "4"}), "") << "one frame needs no pattern";
   EXPECT_EQ(read_flags({"--turntable", "1"}).load.time, 0.0);
   EXPECT_EQ(read_flags({"--frames", "12:12", "--fps", "24"}).load.time, 0.5);

@@ -17,9 +17,9 @@ namespace gatelight::apps {
 namespace {
 
 using nlohmann::ordered_json;
-using testing::HasSubstr;
-using testing::Not;
-using testing::StartsWith;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using ::testing::StartsWith;
 using tests::TemporaryFolder;
 
 constexpr const char* kJpeg = "data:image/jpeg;base64,";
@@ -250,9 +250,9 @@ TEST(Report, EmbedsOnlyReferencesThatACellNames) {
       names.push_back(entry["file"]);
     return names;
   };
-  EXPECT_THAT(files(), testing::ElementsAre("references/b.exr"));
+  EXPECT_THAT(files(), ::testing::ElementsAre("references/b.exr"));
   results["cells"][0].erase("reference_id");
-  EXPECT_THAT(files(), testing::ElementsAre("references/a.exr", "references/b.exr"));
+  EXPECT_THAT(files(), ::testing::ElementsAre("references/a.exr", "references/b.exr"));
 }
 
 TEST(Report, AnAbsolutePathIsTakenAsItIs) {

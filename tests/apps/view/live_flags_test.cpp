@@ -8,7 +8,7 @@
 namespace gatelight::apps {
 namespace {
 
-using testing::ElementsAre;
+using ::testing::ElementsAre;
 
 TEST(LiveFlags, ReplaceThoseOfTheCommandLine) {
   const std::vector<std::string> words = {"--preset=final", "--exposure=2", "--camera=hall"};

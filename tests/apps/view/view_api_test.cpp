@@ -12,7 +12,7 @@ namespace {
 
 using nlohmann::json;
 
-class Api : public testing::Test {
+class Api : public ::testing::Test {
  protected:
   WebResponse get(const std::string& path, std::map<std::string, std::string> query = {}) {
     return api_.answer({"GET", path, std::move(query), ""});

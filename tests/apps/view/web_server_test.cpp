@@ -40,7 +40,7 @@ std::string exchange(int port, const std::string& bytes, int milliseconds = 2000
   return answer;
 }
 
-class Server : public testing::Test {
+class Server : public ::testing::Test {
  protected:
   Server()
       : server_(0,

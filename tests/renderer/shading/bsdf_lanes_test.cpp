@@ -9,7 +9,7 @@
 namespace gatelight::renderer {
 namespace {
 
-using namespace testing;
+using namespace lanes;
 
 constexpr int kBlocks = 3000;
 

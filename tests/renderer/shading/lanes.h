@@ -17,7 +17,7 @@
 #include "renderer/shading/shading.h"
 #include "tests/support/statistics.h"
 
-namespace gatelight::renderer::testing {
+namespace gatelight::renderer::lanes {
 
 using gatelight::testing::Random;
 
@@ -205,4 +205,4 @@ inline LanePoint random_point(Random& random) {
   return p;
 }
 
-}  // namespace gatelight::renderer::testing
+}  // namespace gatelight::renderer::lanes

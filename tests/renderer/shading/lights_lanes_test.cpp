@@ -9,7 +9,7 @@
 namespace gatelight::renderer {
 namespace {
 
-using namespace testing;
+using namespace lanes;
 using gatelight::testing::add_light;
 using gatelight::testing::LitScene;
 using gatelight::testing::quad;

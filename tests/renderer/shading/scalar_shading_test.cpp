@@ -8,7 +8,7 @@
 namespace gatelight::renderer {
 namespace {
 
-using namespace testing;
+using namespace lanes;
 using gatelight::testing::add_light;
 using gatelight::testing::LitScene;
 

@@ -9,7 +9,7 @@
 namespace gatelight::renderer {
 namespace {
 
-using namespace testing;
+using namespace lanes;
 
 /// Samples of one point, 16 at a time.
 class WideSamples {
