@@ -54,19 +54,23 @@ if(GATELIGHT_OIDN_FOLDER)
 endif()
 gatelight_add_deb(gatelight NAME gatelight SECTION graphics
   DESCRIPTION "${summary}\n${description}${denoiser}"
+  RECOMMENDS "gatelight-openimageio ${same_version}"
   SUGGESTS ffmpeg xdg-utils libvulkan1)
+# Apart, because OpenImageIO depends on 270 packages, and all else on 30.
+gatelight_add_deb(openimageio NAME gatelight-openimageio SECTION graphics
+  DESCRIPTION "${summary} (more formats of pictures)\n${description}\nOpenImageIO for the program: it reads and writes Radiance HDR, writes TIFF, scales\npictures for gatelight sweep, and converts colours by OpenColorIO."
+  DEPENDS "gatelight ${same_version}")
 if(TARGET gatelight-mpi)
   gatelight_add_deb(mpi NAME gatelight-mpi SECTION graphics
     DESCRIPTION "${summary} (several machines)\n${description}\nThe program gatelight-mpi renders one picture on several machines by MPI."
     DEPENDS "gatelight ${same_version}" RECOMMENDS openmpi-bin)
 endif()
-# The packages of gatelightConfig.cmake, and libwebp. A program that reads pictures in other formats than EXR, JPEG, PNG and
-# WebP loads OpenImageIO from the package gatelight.
+# The packages of gatelightConfig.cmake, and libwebp.
 gatelight_add_deb(dev NAME libgatelight-dev SECTION libdevel
   DESCRIPTION "${summary} (C++ libraries)\n${description}\nStatic libraries, headers and the CMake package gatelight."
   DEPENDS libembree-dev libtbb-dev libeigen3-dev libfmt-dev nlohmann-json3-dev libdraco-dev
     libmeshoptimizer-dev libopenexr-dev libjpeg-dev libpng-dev libwebp-dev
-  RECOMMENDS "gatelight ${same_version}")
+  RECOMMENDS "gatelight-openimageio ${same_version}")
 if(GATELIGHT_PYTHON_FOUND AND GATELIGHT_PYTHON_FOLDER)
   math(EXPR next_minor "${Python_VERSION_MINOR} + 1")
   gatelight_add_deb(python NAME python3-gatelight SECTION python

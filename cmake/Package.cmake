@@ -2,7 +2,7 @@
 # gatelight::neural and gatelight::renderer.
 #
 # The components are those of the packages: gatelight (the program and all that belongs to it, also files that other
-# folders install without naming a component), mpi, dev, python and bench.
+# folders install without naming a component), openimageio, mpi, dev, python and bench.
 include(CMakePackageConfigHelpers)
 
 set(GATELIGHT_PACKAGE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/gatelight)
@@ -47,7 +47,7 @@ foreach(program IN ITEMS gatelight gatelight-mpi)
     RENAME ${program}.fish)
 endforeach()
 
-install(TARGETS gatelight_openimageio LIBRARY DESTINATION ${GATELIGHT_PLUGIN_FOLDER})
+install(TARGETS gatelight_openimageio LIBRARY DESTINATION ${GATELIGHT_PLUGIN_FOLDER} COMPONENT openimageio)
 if(GATELIGHT_OIDN_FOLDER)
   file(GLOB oidn ${GATELIGHT_OIDN_FOLDER}/libOpenImageDenoise*.so.*)
   if(NOT oidn)

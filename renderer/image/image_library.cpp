@@ -35,6 +35,13 @@ std::filesystem::path find_library() {
 
 const ImageLibrary& load() {
   const std::filesystem::path file = find_library();
+  std::error_code error;
+  if (!std::filesystem::exists(file, error)) {
+    throw MissingLibrary(
+        fmt::format("cannot load OpenImageIO: there is no '{}', which the package "
+                    "gatelight-openimageio installs",
+                    file.string()));
+  }
   void* const library = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
   void* const entry = library ? dlsym(library, "gatelight_image_library") : nullptr;
   if (!entry) throw MissingLibrary(fmt::format("cannot load OpenImageIO: {}", dlerror()));

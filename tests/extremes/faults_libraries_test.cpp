@@ -30,7 +30,8 @@ TEST_F(Libraries, MissingLibrariesAreReportedBeforeWorkThatRequiresThem) {
        {std::vector<std::string>{"render", scene, "--environment", hdr, "-o", path("a.exr")},
         {"sweep", scene, "-o", path("sweep"), "--quiet"},
         {"compare", hdr, hdr}}) {
-    expect_failure_names(run_alone(arguments), 5, {"cannot load OpenImageIO", "gatelight_openimageio.so"});
+    expect_failure_names(run_alone(arguments), 5,
+                         {"cannot load OpenImageIO", "gatelight_openimageio.so", "gatelight-openimageio"});
   }
   EXPECT_FALSE(std::filesystem::exists(folder / "a.exr"));
   EXPECT_FALSE(std::filesystem::exists(folder / "sweep"));
@@ -39,10 +40,10 @@ TEST_F(Libraries, MissingLibrariesAreReportedBeforeWorkThatRequiresThem) {
   const Output output = run_alone(words({"-o", picture, "--spp", "1", "--size", "16x16", "--quiet"}));
   EXPECT_EQ(output.exit_code, 0) << output.err;
   EXPECT_TRUE(std::filesystem::exists(picture));
-  report_extreme("OpenImageIO cannot be loaded",
-                 "render with an environment in HDR; sweep; compare of HDR; render",
-                 "other renders are not affected",
-                 "exit 5 before any work: cannot load OpenImageIO, with the loader's reason");
+  report_extreme(
+      "OpenImageIO cannot be loaded", "render with an environment in HDR; sweep; compare of HDR; render",
+      "other renders are not affected",
+      "exit 5 before any work: cannot load OpenImageIO, with the file and the package that has it");
 }
 
 }  // namespace
