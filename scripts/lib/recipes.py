@@ -81,9 +81,10 @@ def run_stage(system, former, steps):
         elif word == "ENTRYPOINT":
             entry = re.fullmatch(r'\["([\w-]+)"\]', text)[1]
         elif text.startswith("--from="):
-            _, pattern, target = text.split()
-            for file in glob.glob(former.path(pattern)):
-                system.copy_in(file, os.path.join(target, os.path.basename(file)))
+            _, *patterns, target = text.split()
+            for pattern in patterns:
+                for file in glob.glob(former.path(pattern)):
+                    system.copy_in(file, os.path.join(target, os.path.basename(file)))
         else:
             copy_sources(system, text.split()[1])
             copy_denoiser(system)
@@ -99,6 +100,7 @@ def check(base, work):
         former = Chroot(system.folder, system.archives)
     former.copy_in(os.path.join(script.ROOT, "data", "cornell-box.glb"), "/work/cornell-box.glb")
     former.run(f"cd /work && {entry} render cornell-box.glb -o picture.png --preset preview --denoiser oidn --quiet")
+    former.run(f"cd /work && {entry} render cornell-box.glb -o picture.tif --spp 1 --size 16x16 --quiet")  # by OpenImageIO
     if not os.path.getsize(former.path("/work/picture.png")):
         raise Failed("the container's program wrote no picture")
     print("recipes: the steps of the Dockerfile, which gatelight.def has too, give a program that renders a denoised picture")
