@@ -57,6 +57,7 @@ void check_picture_output(const std::string& output) {
   if (*format == ImageFormat::unknown)
     throw UnknownFormat(
         fmt::format("cannot write '{}': formats of standard output are exr, png, jpg, tif and hdr", output));
+  renderer::check_encoder(*format);
   if (::fcntl(STDOUT_FILENO, F_GETFD) < 0)
     throw OutputError(fmt::format("cannot write '{}': standard output is closed", output));
   if (::isatty(STDOUT_FILENO) != 0)

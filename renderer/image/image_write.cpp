@@ -98,6 +98,8 @@ void naming(const std::string& target, const Function& function) {
     throw;
   } catch (const BadOption&) {
     throw;
+  } catch (const MissingLibrary&) {
+    throw;
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& error) {
@@ -137,8 +139,13 @@ std::vector<std::uint8_t> display_bytes(const Picture& picture, const DisplayOpt
   return quantized<std::uint8_t>(over_black);
 }
 
+void check_encoder(ImageFormat format) {
+  if (format == ImageFormat::tiff || format == ImageFormat::hdr) image_library();
+}
+
 void check_image_output(const std::filesystem::path& path) {
   require_known_format(path);
+  check_encoder(image_format(path));
   check_writable(path);
 }
 

@@ -153,10 +153,10 @@ TEST_F(Frames, AreShownWithTheExposureOfTheFirst) {
 }
 
 TEST_F(Frames, TellTheirProgress) {
-  const Output json = render({"--frames", "0:1", "-o", path("f-%d.exr"), "--progress", "json"});
-  EXPECT_EQ(json.exit_code, 0);
+  const Output told = render({"--frames", "0:1", "-o", path("f-%d.exr"), "--progress", "json"});
+  EXPECT_EQ(told.exit_code, 0);
   for (const char* text : {"\"event\":\"frame\"", "\"frame\":1", "\"frames\":2", "\"event\":\"done\""})
-    EXPECT_NE(json.err.find(text), std::string::npos) << text << "\n" << json.err;
+    EXPECT_NE(told.err.find(text), std::string::npos) << text << "\n" << told.err;
 }
 
 }  // namespace

@@ -26,8 +26,12 @@ class Libraries : public ErrorConsensus {
 
 TEST_F(Libraries, MissingLibrariesAreReportedBeforeWorkThatRequiresThem) {
   const std::string hdr = folder.write("sky.hdr", "not even a picture");
+  const std::string sky_png = folder.write("sky.png", "nor this");
   for (const std::vector<std::string>& arguments :
        {std::vector<std::string>{"render", scene, "--environment", hdr, "-o", path("a.exr")},
+        {"render", scene, "-o", path("a.tif")},
+        {"render", scene, "-o", "hdr:-"},
+        {"render", scene, "--background", sky_png, "-o", path("a.exr")},
         {"sweep", scene, "-o", path("sweep"), "--quiet"},
         {"compare", hdr, hdr}}) {
     expect_failure_names(run_alone(arguments), 5,
@@ -41,7 +45,8 @@ TEST_F(Libraries, MissingLibrariesAreReportedBeforeWorkThatRequiresThem) {
   EXPECT_EQ(output.exit_code, 0) << output.err;
   EXPECT_TRUE(std::filesystem::exists(picture));
   report_extreme(
-      "OpenImageIO cannot be loaded", "render with an environment in HDR; sweep; compare of HDR; render",
+      "OpenImageIO cannot be loaded",
+      "render with an environment in HDR, to TIFF and HDR, before a picture; sweep; compare of HDR; render",
       "other renders are not affected",
       "exit 5 before any work: cannot load OpenImageIO, with the file and the package that has it");
 }

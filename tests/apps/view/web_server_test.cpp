@@ -19,9 +19,9 @@ namespace gatelight::apps {
 namespace {
 
 /// What the server sends back to some bytes, until it closes or is silent for so long.
-std::string exchange(int port, const std::string& bytes, int milliseconds = 2000) {
+std::string exchange(int port, const std::string& bytes, int limit_ms = 2000) {
   const int socket = ::socket(AF_INET, SOCK_STREAM, 0);
-  const timeval limit{milliseconds / 1000, milliseconds % 1000 * 1000};
+  const timeval limit{limit_ms / 1000, limit_ms % 1000 * 1000};
   ::setsockopt(socket, SOL_SOCKET, SO_RCVTIMEO, &limit, sizeof limit);
   sockaddr_in to{};
   to.sin_family = AF_INET;
