@@ -104,13 +104,13 @@ TEST(ExtremeLayouts, SpacingsAndScalesOfAnySizeGiveValidResolutions) {
 
 // Areas of 1e308 m2 and their squares overflow double precision.
 TEST(ExtremeLayouts, CoordinatesAtTheEndOfFloatsGiveValidResolutions) {
-  constexpr float kGreatest = std::numeric_limits<float>::max();
+  constexpr float kLargest = std::numeric_limits<float>::max();
   OwnedMesh mesh = make_sheet(3, 0.0f, 1);
   for (Float3& p : mesh.positions)
-    for (float& x : p) x = (x - 0.5f) * 2 * kGreatest * 0.99f;
+    for (float& x : p) x = (x - 0.5f) * 2 * kLargest * 0.99f;
   std::size_t tried = 0;
   for (const ResolutionRule rule : {ResolutionRule::uniform, ResolutionRule::paper, ResolutionRule::fixed})
-    for (const float scale : {1e-38f, 1.0f, 1e10f, kGreatest})
+    for (const float scale : {1e-38f, 1.0f, 1e10f, kLargest})
       for (const bool cluster : {false, true}) {
         if (cluster && rule != ResolutionRule::uniform) continue;
         SurfaceLayout surfaces;
