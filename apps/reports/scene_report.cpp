@@ -58,7 +58,7 @@ const char* name_of_type(const scene::Camera& camera) {
   return camera.orthographic ? "orthographic" : "perspective";
 }
 
-class Lines {
+class SceneRows {
  public:
   /// Names in the file may hold anything; control characters must not reach the terminal.
   void add(const std::string& name, const std::string& value) {
@@ -242,7 +242,7 @@ std::size_t render_bytes(const scene::Scene& scene) {
 
 std::string scene_report_text(const scene::Scene& scene, const SceneRequirements& requirements,
                               double load_seconds) {
-  Lines rows;
+  SceneRows rows;
   rows.add("scene", scene.path);
   rows.add("triangles", fmt::format("{} stored, {} with instances", format_integer(stored_triangles(scene)),
                                     format_integer(scene::count_triangles(scene))));
