@@ -15,7 +15,6 @@
 #include "apps/terminal/errors.h"
 #include "apps/terminal/version.h"
 #include "base/platform/threads.h"
-#include "renderer/image/image_library.h"
 #include "renderer/image/image_read.h"
 #include "renderer/settings/resolved_options.h"
 
@@ -290,7 +289,6 @@ void check_inputs(const RenderSettings& settings) {
   if (const std::string& background = settings.render.background.file; !background.empty()) {
     require_file("the background", background);
     check_image_input(background);
-    renderer::image_library();  // scales it: throws now if it is missing
   }
   if (const std::string& cache = settings.render.cache.cache_in; !cache.empty())
     require_file("the cache", cache);

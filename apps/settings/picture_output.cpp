@@ -12,6 +12,7 @@
 #include "apps/terminal/terminal.h"
 #include "base/errors.h"
 #include "base/file/atomic_file.h"
+#include "renderer/image/image_library.h"
 
 namespace gatelight::apps {
 
@@ -57,7 +58,7 @@ void check_picture_output(const std::string& output) {
   if (*format == ImageFormat::unknown)
     throw UnknownFormat(
         fmt::format("cannot write '{}': formats of standard output are exr, png, jpg, tif and hdr", output));
-  renderer::check_encoder(*format);
+  renderer::check_codec(*format);
   if (::fcntl(STDOUT_FILENO, F_GETFD) < 0)
     throw OutputError(fmt::format("cannot write '{}': standard output is closed", output));
   if (::isatty(STDOUT_FILENO) != 0)

@@ -52,6 +52,10 @@ std::vector<float> read_cover(const std::string& file, int width, int height) {
 
 }  // namespace
 
+void check_background(const BackgroundOptions& background, int width, int height) {
+  if (background.kind == BackgroundOptions::Kind::file) read_cover(background.file, width, height);
+}
+
 void put_before(Picture& picture, const std::vector<float>& alpha, const BackgroundOptions& background) {
   using Kind = BackgroundOptions::Kind;
   Layer& beauty = picture.layers.front();

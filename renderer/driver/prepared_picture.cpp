@@ -11,6 +11,7 @@
 #include "base/platform/flush_denormals.h"
 #include "base/platform/threads.h"
 #include "renderer/cache/cache_model.h"
+#include "renderer/driver/background.h"
 #include "renderer/driver/chosen_integrator.h"
 #include "renderer/film/camera_choice.h"
 #include "renderer/film/memory_estimate.h"
@@ -142,6 +143,7 @@ void PreparedPicture::choose_options(const RenderOptions& chosen) {
   chosen_denoiser = choose_denoiser(chosen.denoise, ranks_);
   if (chosen_denoiser.library != denoiser_before.library) denoiser.reset();
   options_of_picture = with_denoiser(with_sky(scene, checked(chosen)), chosen_denoiser);
+  check_background(options_of_picture.background, options_of_picture.width, options_of_picture.height);
   options = options_of_film(options_of_picture);
   region = region_of(options);
   filter = FilterSampler(options.filter, options.filter_width);

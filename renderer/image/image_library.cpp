@@ -55,4 +55,8 @@ const ImageLibrary& image_library() {
   return library;
 }
 
+void check_codec(ImageFormat format) {
+  if (format == ImageFormat::tiff || format == ImageFormat::hdr) image_library();
+}
+
 }  // namespace gatelight::renderer

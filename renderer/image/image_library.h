@@ -34,4 +34,7 @@ class ImageLibrary {
 /// Loads the library at the first call. Thread-safe. Throws MissingLibrary.
 const ImageLibrary& image_library();
 
+/// Throws MissingLibrary if OpenImageIO reads or writes files of this format and cannot be loaded.
+void check_codec(ImageFormat format);
+
 }  // namespace gatelight::renderer

@@ -75,7 +75,7 @@ void check_image_input(const std::filesystem::path& path) {
         fmt::format("cannot read '{}': its extension is '{}', supported are .exr, .hdr and .png",
                     path.string(), path.extension().string()));
   }
-  if (format == ImageFormat::hdr) image_library();
+  check_codec(format);
 }
 
 Picture read_image(const std::filesystem::path& path) {

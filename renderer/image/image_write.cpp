@@ -117,18 +117,6 @@ void require_known_format(const std::filesystem::path& path) {
 
 }  // namespace
 
-ImageFormat image_format(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(c >= 'A' && c <= 'Z' ? c + 32 : c); });
-  if (extension == ".exr") return ImageFormat::exr;
-  if (extension == ".png") return ImageFormat::png;
-  if (extension == ".jpg" || extension == ".jpeg") return ImageFormat::jpeg;
-  if (extension == ".tif" || extension == ".tiff") return ImageFormat::tiff;
-  if (extension == ".hdr") return ImageFormat::hdr;
-  return ImageFormat::unknown;
-}
-
 std::vector<std::uint8_t> display_bytes(const Picture& picture, const DisplayOptions& options) {
   std::vector<float> values = displayed(picture, options);
   if (!picture.layers.front().has_alpha()) return quantized<std::uint8_t>(values);
@@ -139,13 +127,9 @@ std::vector<std::uint8_t> display_bytes(const Picture& picture, const DisplayOpt
   return quantized<std::uint8_t>(over_black);
 }
 
-void check_encoder(ImageFormat format) {
-  if (format == ImageFormat::tiff || format == ImageFormat::hdr) image_library();
-}
-
 void check_image_output(const std::filesystem::path& path) {
   require_known_format(path);
-  check_encoder(image_format(path));
+  check_codec(image_format(path));
   check_writable(path);
 }
 

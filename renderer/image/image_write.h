@@ -18,9 +18,6 @@ struct ImageWriteOptions {
   DisplayOptions display;  ///< of PNG, JPEG and TIFF; EXR and HDR keep the scene's radiance
 };
 
-/// Throws MissingLibrary if OpenImageIO encodes the format and cannot be loaded.
-void check_encoder(ImageFormat format);
-
 /// Throws UnknownFormat, OutputError or MissingLibrary if write_image() cannot write to `path`.
 void check_image_output(const std::filesystem::path& path);
 

@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include "renderer/image/image_write.h"
 #include "tests/extremes/faults.h"
 
 namespace gatelight::tests {
@@ -26,7 +27,10 @@ class Libraries : public ErrorConsensus {
 
 TEST_F(Libraries, MissingLibrariesAreReportedBeforeWorkThatRequiresThem) {
   const std::string hdr = folder.write("sky.hdr", "not even a picture");
-  const std::string sky_png = folder.write("sky.png", "nor this");
+  const std::string sky_png = path("sky.png");  // must be scaled
+  renderer::Picture pixel{
+      .width = 1, .height = 1, .layers = {{.channels = {"R", "G", "B"}, .values = {0, 0, 0}}}};
+  renderer::write_image(pixel, sky_png);
   for (const std::vector<std::string>& arguments :
        {std::vector<std::string>{"render", scene, "--environment", hdr, "-o", path("a.exr")},
         {"render", scene, "-o", path("a.tif")},

@@ -209,7 +209,7 @@ TEST(Background, AFileCoversTheViewAndARegionShowsItsPart) {
   EXPECT_EQ(pixel(open, 3, 3)[0], 65504.0f);
   EXPECT_EQ(pixel(open, 3, 3)[2], 0.0f);
   options.background.file = (folder / "missing.exr").string();
-  tests::expect_message(tests::refusal<InputError>([&] { rendered(nothing, options); }), {"missing.exr"});
+  tests::expect_message(tests::refusal<InputError>([&] { Renderer(nothing, options); }), {"missing.exr"});
 }
 
 TEST(Background, TheAlphaIsDenoisedToo) {
