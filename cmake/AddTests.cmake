@@ -1,12 +1,11 @@
-# gatelight_add_tests(<target> LIBRARIES <lib>... [PRECOMPILE <header>...] SOURCES <file>... [SEPARATE <file>...])
+# gatelight_add_tests(<target> LIBRARIES <lib>... [PRECOMPILE <header>...] SOURCES <file>...)
 #
 # Adds one executable for a folder of tests, and one CTest entry for each of its files NAME_test.cpp. An entry for every
 # case would start the program a thousand times. An entry runs the test suites of its file. Its label is the last word
-# before _test if that is stat, golden or slow, otherwise "unit". SEPARATE are sources that use names of their neighbours,
-# so that they cannot be compiled together with them.
+# before _test if that is stat, golden or slow, otherwise "unit".
 include(GoogleTest)
 function(gatelight_add_tests target)
-  cmake_parse_arguments(ARG "" "" "LIBRARIES;PRECOMPILE;SOURCES;SEPARATE" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "LIBRARIES;PRECOMPILE;SOURCES" ${ARGN})
   if(NOT ARG_SOURCES)
     return()
   endif()
@@ -15,9 +14,7 @@ function(gatelight_add_tests target)
   target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR})
   # The libraries do the long work, so -O1 is enough here.
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
-  gatelight_compile_together(${target})
-  set_source_files_properties(${ARG_SEPARATE} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
-  gatelight_precompile(${target} <gmock/gmock.h> <gtest/gtest.h> <algorithm> <cmath> <string> <vector> ${ARG_PRECOMPILE})
+  gatelight_build_fast(${target} <gmock/gmock.h> <gtest/gtest.h> <algorithm> <cmath> <string> <vector> ${ARG_PRECOMPILE})
   target_compile_definitions(${target} PRIVATE
     GATELIGHT_SOURCE_DIR="${PROJECT_SOURCE_DIR}" GATELIGHT_BINARY_DIR="${PROJECT_BINARY_DIR}")
   get_filename_component(folder ${CMAKE_CURRENT_SOURCE_DIR} NAME)

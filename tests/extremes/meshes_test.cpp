@@ -29,7 +29,7 @@ RenderOptions mesh_picture(Integrator integrator) {
   return options;
 }
 
-Vec3 random_unit(Random& random) {
+Vec3 random_direction(Random& random) {
   return sample_uniform_sphere({random.uniform_float(), random.uniform_float()});
 }
 
@@ -82,7 +82,7 @@ TEST(Meshes, TrianglesOfAllSizesAreHitInPlaceWithoutSelfIntersection) {
       const Vec2 b = 0.98f * sample_uniform_triangle({random.uniform_float(), random.uniform_float()}) +
                      Vec2(0.005f, 0.005f);
       const Vec3 at = corners[0] + b.x() * (corners[1] - corners[0]) + b.y() * (corners[2] - corners[0]);
-      Vec3 from = random_unit(random);
+      Vec3 from = random_direction(random);
       from.y() = std::abs(from.y()) + 0.2f;
       Ray ray;
       ray.origin = at + side * from;
@@ -159,7 +159,7 @@ TEST(Meshes, SliversReflectLikeTheWholeSquare) {
   double worst = 0.0;
   for (int turn = 0; turn < 4; ++turn) {
     SceneBuilder builder;
-    const Vec3 n = turn == 0 ? Vec3(0, 0, 1) : random_unit(random);
+    const Vec3 n = turn == 0 ? Vec3(0, 0, 1) : random_direction(random);
     const Basis basis(n);
     const int m = builder.material(SceneBuilder::lambert(Color::Ones()));
     PaddedVector<Vec3> p;

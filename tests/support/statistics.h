@@ -86,6 +86,9 @@ inline double student_two_sided(double t, double degrees_of_freedom) {
   return beta_i(0.5 * degrees_of_freedom, 0.5, degrees_of_freedom / (degrees_of_freedom + t * t));
 }
 
+/// Significance of all comparisons of a test together, for sidak().
+inline constexpr double kFamilySignificance = 1e-5;
+
 /// The significance each of `tests` independent tests must use for the family to have `family` (Sidak 1967).
 inline double sidak(double family, std::size_t tests) {
   return -std::expm1(std::log1p(-family) / static_cast<double>(tests));

@@ -18,7 +18,7 @@ using testing::Random;
 
 // Only deltas, between the lobes of the cases, everything.
 constexpr std::array<float, 5> kThresholds{0.0f, 0.15f, 0.35f, 0.7f, 1.1f};
-constexpr std::array<float, 4> kRoughnesses{0.0f, 0.1f, 0.3f, 0.8f};
+constexpr std::array<float, 4> kPartRoughnesses{0.0f, 0.1f, 0.3f, 0.8f};
 
 /// A BSDF with a separate normal of the clearcoat, so that no two deltas coincide.
 Bsdf tilted_bsdf(const BsdfCase& c, float roughness, const Vec3& wo) {
@@ -31,7 +31,7 @@ Bsdf tilted_bsdf(const BsdfCase& c, float roughness, const Vec3& wo) {
 template <class F>
 void for_each_split(F&& check) {
   for (const BsdfCase& c : colored_cases()) {
-    for (const float roughness : kRoughnesses) {
+    for (const float roughness : kPartRoughnesses) {
       for (const float cosine : {0.9f, 0.3f, 0.05f}) {
         const Bsdf whole = tilted_bsdf(c, roughness, incident(cosine));
         for (const float threshold : kThresholds) {

@@ -22,7 +22,7 @@ using testing::view_from;
 using testing::ViewedWorld;
 
 // Of the means of this file, and of those that are tested together.
-const double kSignificance = testing::sidak(1e-4, 9);
+const double kLearningSignificance = testing::sidak(1e-4, 9);
 
 struct Learned {
   CacheHolds holds;
@@ -67,7 +67,7 @@ TEST(CacheLearning, AClosedFurnaceSendsEmissionOverOneMinusAlbedo) {
     session.train(100, {});
     EXPECT_EQ(session.steps(), 100u);
     const double mean = mean_answer(session, viewed);
-    EXPECT_GT(errors.p_value(mean, stored_light(learned), learned.error), kSignificance) << mean;
+    EXPECT_GT(errors.p_value(mean, stored_light(learned), learned.error), kLearningSignificance) << mean;
 
     const CacheStatistics s = session.statistics();
     EXPECT_EQ(s.steps, 100);
@@ -80,7 +80,7 @@ TEST(CacheLearning, AClosedFurnaceSendsEmissionOverOneMinusAlbedo) {
     EXPECT_EQ(s.nodes, session.model().parameters.node_count);
     EXPECT_FALSE(s.backend.empty());
   }
-  EXPECT_GT(errors.common_p_value(), kSignificance);
+  EXPECT_GT(errors.common_p_value(), kLearningSignificance);
 }
 
 double answer_of_source(TrainingSource source, std::uint32_t seed) {
@@ -101,9 +101,9 @@ TEST(CacheLearning, PointsOfEverySourceLearnTheSameFurnace) {
   std::uint32_t seed = 100;
   for (const auto& [source, error] : kSources) {
     const double mean = answer_of_source(source, seed++);
-    EXPECT_GT(errors.p_value(mean, 5.0, error), kSignificance) << mean;
+    EXPECT_GT(errors.p_value(mean, 5.0, error), kLearningSignificance) << mean;
   }
-  EXPECT_GT(errors.common_p_value(), kSignificance);
+  EXPECT_GT(errors.common_p_value(), kLearningSignificance);
 }
 
 double attenuated_answer(std::uint32_t seed) {
@@ -123,7 +123,7 @@ double attenuated_answer(std::uint32_t seed) {
 TEST(CacheLearning, AnAttenuatedCacheLearnsTooLittle) {
   const double answer = attenuated_answer(0);
   // The fixed point of y = Le + a / 2 y.
-  EXPECT_GT(MeasuredErrors().p_value(answer, 1.0 / 0.7, kAttenuatedError), kSignificance) << answer;
+  EXPECT_GT(MeasuredErrors().p_value(answer, 1.0 / 0.7, kAttenuatedError), kLearningSignificance) << answer;
 }
 
 TEST(CacheLearning, OcclusionIsLearnedAndStaysWithinOne) {

@@ -20,7 +20,7 @@ using testing::SceneBuilder;
 using testing::ViewedWorld;
 
 // Of the means of this file, and of those that are tested together.
-const double kSignificance = testing::sidak(1e-4, 15);
+const double kFurnaceSignificance = testing::sidak(1e-4, 15);
 
 struct Setting {
   CacheHolds holds;
@@ -71,14 +71,14 @@ TEST(CachedFurnace, ShowsEmissionOverOneMinusAlbedo) {
     const Picture picture = furnace(setting, seed++, s);
     expect_sound(picture);
     const double mean = moments_of(picture).mean();
-    EXPECT_GT(errors.p_value(mean, 2.0 / (1.0 - 0.6), setting.error), kSignificance) << mean;
+    EXPECT_GT(errors.p_value(mean, 2.0 / (1.0 - 0.6), setting.error), kFurnaceSignificance) << mean;
     const double paths = setting.query_at == QueryAt::none ? 0.0 : 64.0 * 48.0 * 4.0;
     // One query a path, except for paths that roulette ends before they have spread.
     EXPECT_NEAR(static_cast<double>(s.queries), paths, setting.query_at == QueryAt::spread ? 100.0 : 0.0);
     EXPECT_EQ(s.unstored_hits, 0u);
     EXPECT_EQ(s.steps, 60);
   }
-  EXPECT_GT(errors.common_p_value(), kSignificance);
+  EXPECT_GT(errors.common_p_value(), kFurnaceSignificance);
 }
 
 /// A furnace with a box of the same material that has no storage.
@@ -105,7 +105,7 @@ TEST(CachedFurnace, MayMixInstancesWithAndWithoutStorage) {
   const double mean = moments_of(mixed_furnace(0, statistics)).mean();
   EXPECT_GT(statistics.queries, 3000u);
   EXPECT_GT(statistics.unstored_hits, 1000u);
-  EXPECT_GT(MeasuredErrors().p_value(mean, 5.0, kMixedError), kSignificance) << mean;
+  EXPECT_GT(MeasuredErrors().p_value(mean, 5.0, kMixedError), kFurnaceSignificance) << mean;
 }
 
 double mean_of_the_caches_view(QueryAt at, std::uint32_t seed) {
@@ -123,9 +123,9 @@ TEST(CachedFurnace, TheCachesViewIsTheLearnedLight) {
   std::uint32_t seed = 100;
   for (const QueryAt at : {QueryAt::primary, QueryAt::gather}) {
     const double mean = mean_of_the_caches_view(at, seed++);
-    EXPECT_GT(errors.p_value(mean, 5.0, kViewError), kSignificance) << mean;
+    EXPECT_GT(errors.p_value(mean, 5.0, kViewError), kFurnaceSignificance) << mean;
   }
-  EXPECT_GT(errors.common_p_value(), kSignificance);
+  EXPECT_GT(errors.common_p_value(), kFurnaceSignificance);
 }
 
 }  // namespace

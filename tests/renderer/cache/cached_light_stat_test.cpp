@@ -24,7 +24,7 @@ using testing::Moments;
 using testing::SceneBuilder;
 
 constexpr int kSide = 64;
-const double kSignificance = testing::sidak(1e-4, 150);
+const double kLightSignificance = testing::sidak(1e-4, 150);
 
 /// Every kind of surface (matte, plastic, rough and smooth metal, mirror, pane, lacquer, rough and smooth
 /// glass, matte inside glass) under every kind of light.
@@ -261,13 +261,13 @@ class CachedLight : public ::testing::TestWithParam<Setting> {};
 TEST_P(CachedLight, CompositionWithUnbiasedAnswersHasThePathTracersMean) {
   std::string what;
   const auto moments = moments_of(pictures().answered(GetParam(), GetParam(), 1, 24));
-  EXPECT_GT(compare(moments, reference_moments(), what), kSignificance) << what;
+  EXPECT_GT(compare(moments, reference_moments(), what), kLightSignificance) << what;
 }
 
 TEST_P(CachedLight, TrainingSamplesThatEndInUnbiasedAnswersHaveThePathTracersMean) {
   std::string what;
   const auto moments = moments_of(pictures().taught(GetParam(), 1, 24));
-  EXPECT_GT(compare(moments, reference_moments(), what), kSignificance) << what;
+  EXPECT_GT(compare(moments, reference_moments(), what), kLightSignificance) << what;
 }
 
 std::vector<Setting> settings() {
@@ -291,7 +291,7 @@ TEST(CachedLightDefects, TargetsAndCompositionThatDisagreeAreDetected) {
       std::string what;
       const auto moments = moments_of(
           pictures().answered({composed, QueryAt::primary, 0.3f}, {learned, QueryAt::primary, 0.3f}, 3, 24));
-      EXPECT_LT(compare(moments, reference_moments(), what), kSignificance) << what;
+      EXPECT_LT(compare(moments, reference_moments(), what), kLightSignificance) << what;
     }
   }
 }

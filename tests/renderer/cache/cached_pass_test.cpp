@@ -29,7 +29,7 @@ void expect_same_picture(const Picture& a, const Picture& b, const std::string& 
 }
 
 /// The same with a side wall, a lamp, glass, gloss, and a veil.
-SceneBuilder room() {
+SceneBuilder room_with_glass() {
   SceneBuilder builder = walls_and_mirror();
   builder.quad(0, Vec3(-2, 0, 2), Vec3(0, 0, -4), Vec3(0, 3, 0));
   builder.quad(builder.material(SceneBuilder::lambert(Color::Zero(), Color(9.0f, 8.0f, 7.0f))),
@@ -54,7 +54,7 @@ const std::vector<Aov> kAllOfTheCache = {Aov::albedo,         Aov::cache_answer,
                                          Aov::training_count, Aov::resolution,   Aov::nearest_node};
 
 TEST(CachedPass, AnyNumberOfThreadsGivesTheSameBits) {
-  SceneBuilder builder = room();
+  SceneBuilder builder = room_with_glass();
   for (const Integrator integrator : {Integrator::nrc, Integrator::nao}) {
     RenderOptions options = cached_picture(integrator);
     options.environment.constant = Color(0.2f, 0.3f, 0.5f);
@@ -87,7 +87,7 @@ TEST(CachedPass, AnyNumberOfThreadsGivesTheSameBits) {
 }
 
 TEST(CachedPass, ARegionOfATrainedCacheIsThatPartOfTheWhole) {
-  const ViewedWorld viewed(room(), {.constant = Color(0.2f, 0.3f, 0.5f)});
+  const ViewedWorld viewed(room_with_glass(), {.constant = Color(0.2f, 0.3f, 0.5f)});
   for (const QueryAt at : {QueryAt::primary, QueryAt::gather}) {
     RenderOptions options = cached_picture(Integrator::nrc);
     options.max_depth = 5;
@@ -109,7 +109,7 @@ TEST(CachedPass, ARegionOfATrainedCacheIsThatPartOfTheWhole) {
 }
 
 TEST(CachedPass, SurfacesWithoutStorageAreTraced) {
-  SceneBuilder builder = room();
+  SceneBuilder builder = room_with_glass();
   const EnvironmentOptions sky{.constant = Color(0.2f, 0.3f, 0.5f)};
   const ViewedWorld viewed(builder, sky);
   for (const Integrator integrator : {Integrator::nrc, Integrator::nao}) {
@@ -160,7 +160,7 @@ TEST(CachedPass, ASideWithoutStorageDoesNotReadTheOther) {
 }
 
 TEST(CachedPass, NegativeAnswersAreCountedAndBlack) {
-  const ViewedWorld viewed(room(), {.constant = Color(0.2f, 0.3f, 0.5f)});
+  const ViewedWorld viewed(room_with_glass(), {.constant = Color(0.2f, 0.3f, 0.5f)});
   RenderOptions options = cached_picture(Integrator::nrc);
   options.max_depth = 5;
   options.aovs = {Aov::cache_answer};

@@ -17,7 +17,7 @@ using testing::Moments;
 using testing::SceneBuilder;
 
 constexpr double kSky = 2.0;
-const double kSignificance = testing::sidak(1e-4, 4);
+const double kPathSignificance = testing::sidak(1e-4, 4);
 
 /// Traces `paths` paths from (0, 5, 0) down, below a sky of kSky.
 PathBatch look_down(const scene::Scene& scene, const PathPlan& plan, std::size_t paths) {
@@ -50,7 +50,7 @@ Moments radiance_of(PathBatch batch, float answer) {
 }
 
 void expect_mean(const Moments& moments, double expected, double rounding) {
-  EXPECT_GT(testing::mean_p_value(moments, expected, rounding), kSignificance)
+  EXPECT_GT(testing::mean_p_value(moments, expected, rounding), kPathSignificance)
       << "mean " << moments.mean() << " +- " << moments.standard_error() << ", expected " << expected;
 }
 

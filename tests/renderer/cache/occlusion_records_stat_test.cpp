@@ -14,7 +14,7 @@ using testing::SceneBuilder;
 using testing::view_from;
 using testing::ViewedWorld;
 
-const double kSignificance = testing::sidak(1e-4, 20);
+const double kOcclusionSignificance = testing::sidak(1e-4, 20);
 
 Moments targets(const ViewedWorld& viewed, float distance, std::size_t points, int times = 1) {
   RenderOptions options;
@@ -32,9 +32,9 @@ Moments targets(const ViewedWorld& viewed, float distance, std::size_t points, i
   return moments;
 }
 
-void expect_mean(const Moments& m, double expected) {
+void expect_mean_visibility(const Moments& m, double expected) {
   EXPECT_GT(m.count(), 500u);
-  EXPECT_GT(testing::mean_p_value(m, expected), kSignificance)
+  EXPECT_GT(testing::mean_p_value(m, expected), kOcclusionSignificance)
       << "mean " << m.mean() << " +- " << m.standard_error() << ", expected " << expected;
 }
 
@@ -44,13 +44,13 @@ TEST(OcclusionRecordsStat, NothingOccludesAPlane) {
   builder.quad(matte, Vec3(-90, 0, 90), Vec3(180, 0, 0), Vec3(0, 0, -180));
   builder.scene().cameras.push_back(view_from(Vec3(0, 1, 0), Vec3(0, 0, 0)));
   const ViewedWorld viewed(builder);
-  expect_mean(targets(viewed, kInfinity, 1000), 1.0);
+  expect_mean_visibility(targets(viewed, kInfinity, 1000), 1.0);
 }
 
 TEST(OcclusionRecordsStat, AClosedRoomIsFullyOccluded) {
   const ViewedWorld viewed(testing::closed_furnace(0.5f, 1.0f));
   const Moments m = targets(viewed, kInfinity, 2000);
-  expect_mean(m, 0.0);
+  expect_mean_visibility(m, 0.0);
   EXPECT_EQ(m.variance(), 0.0);
 }
 
@@ -67,16 +67,16 @@ SceneBuilder slab() {
 TEST(OcclusionRecordsStat, ACeilingOccludesByItsDistance) {
   const ViewedWorld viewed(slab());
   // A ray with the cosine c reaches the ceiling after 1 / c metres; c^2 is uniform.
-  expect_mean(targets(viewed, 2.0f, 6000), 0.25);
-  expect_mean(targets(viewed, 1.25f, 6000), 0.64);
-  expect_mean(targets(viewed, 0.9f, 1000), 1.0);
+  expect_mean_visibility(targets(viewed, 2.0f, 6000), 0.25);
+  expect_mean_visibility(targets(viewed, 1.25f, 6000), 0.64);
+  expect_mean_visibility(targets(viewed, 0.9f, 1000), 1.0);
 }
 
 TEST(OcclusionRecordsStat, SamplesOfAPointAreAveraged) {
   const ViewedWorld viewed(slab());
   const Moments m = targets(viewed, 2.0f, 3000, 16);
   EXPECT_NEAR(static_cast<double>(m.count()), 3000.0, 60.0);
-  expect_mean(m, 0.25);
+  expect_mean_visibility(m, 0.25);
   // The targets are binomial with 16 trials; the standard deviation of the variance is 2.6 percent.
   EXPECT_NEAR(m.variance() / (0.25 * 0.75 / 16.0), 1.0, 0.12);
 }
@@ -114,7 +114,7 @@ TEST(OcclusionRecordsStat, TheReferenceIntegratorAgrees) {
   }
   const Moments m = targets(viewed, kDistance, 24000);
   const double error = std::hypot(m.standard_error(), expected.standard_error());
-  EXPECT_GT(testing::normal_two_sided((m.mean() - expected.mean()) / error), kSignificance)
+  EXPECT_GT(testing::normal_two_sided((m.mean() - expected.mean()) / error), kOcclusionSignificance)
       << m.mean() << " against " << expected.mean() << " +- " << error;
   EXPECT_LT(m.mean(), 0.95);
 }

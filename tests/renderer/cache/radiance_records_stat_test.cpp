@@ -18,7 +18,7 @@ using testing::SceneBuilder;
 using testing::view_from;
 using testing::ViewedWorld;
 
-const double kSignificance = testing::sidak(1e-4, 40);
+const double kRadianceSignificance = testing::sidak(1e-4, 40);
 
 /// One target a path: that of its record nearest to the camera.
 Moments first_targets(const ViewedWorld& viewed, const RenderOptions& options, std::size_t points,
@@ -45,7 +45,7 @@ Moments first_targets(const ViewedWorld& viewed, const RenderOptions& options, s
 
 void expect_mean(const Moments& m, double expected, double rounding = 1e-5) {
   EXPECT_GT(m.count(), 100u);
-  EXPECT_GT(testing::mean_p_value(m, expected, rounding), kSignificance)
+  EXPECT_GT(testing::mean_p_value(m, expected, rounding), kRadianceSignificance)
       << "mean " << m.mean() << " +- " << m.standard_error() << ", expected " << expected;
 }
 

@@ -25,7 +25,7 @@ constexpr int kWidth = 64;
 constexpr int kHeight = 48;
 
 /// A camera at the origin, looking along -z.
-scene::Camera view() {
+scene::Camera training_view() {
   scene::Camera camera;
   camera.vertical_fov = 0.9f;
   return camera;
@@ -33,7 +33,7 @@ scene::Camera view() {
 
 /// Two walls before the camera: the left half of the picture and the right one.
 struct TwoWalls {
-  TwoWalls() : world(fill()), camera(view(), kWidth, kHeight) {}
+  TwoWalls() : world(fill()), camera(training_view(), kWidth, kHeight) {}
 
   const scene::Scene& fill() {
     const int matte = builder.material(SceneBuilder::lambert(Color::Constant(0.5f)));
@@ -60,7 +60,7 @@ TrainingStarts choose(const TwoWalls& walls, const RenderOptions& options, std::
 
 /// The position where the ray passes the picture, in pixels.
 std::array<double, 2> film_position(const Ray& ray) {
-  const double half = std::tan(0.5 * static_cast<double>(view().vertical_fov));
+  const double half = std::tan(0.5 * static_cast<double>(training_view().vertical_fov));
   const Eigen::Vector3d d = ray.direction.cast<double>() / -static_cast<double>(ray.direction.z());
   return {(d.x() / (half * kWidth / kHeight) + 1.0) * 0.5 * kWidth, (1.0 - d.y() / half) * 0.5 * kHeight};
 }
@@ -273,7 +273,7 @@ TEST(TrainingPoints, SurfacePointsLieOnTheirRays) {
   mirrored.transform.translate(Vec3(10, 0, 0));
   mirrored.transform.scale(Vec3(-1, 2, 1));
   const World world(builder.scene());
-  const Camera camera(view(), kWidth, kHeight);
+  const Camera camera(training_view(), kWidth, kHeight);
   RenderOptions options;
   options.cache.source = TrainingSource::surface;
   const std::vector<neural::Sides> sides{neural::Sides::both, neural::Sides::back};

@@ -19,7 +19,7 @@ scene::Scene lit_room() {
   return room;
 }
 
-std::vector<float> picture_of(const std::vector<scene::LightAdjustment>& adjustments) {
+std::vector<float> adjusted_picture(const std::vector<scene::LightAdjustment>& adjustments) {
   scene::Scene room = lit_room();
   scene::adjust_lights(room, adjustments);
   RenderOptions options = testing::small_picture();
@@ -29,7 +29,8 @@ std::vector<float> picture_of(const std::vector<scene::LightAdjustment>& adjustm
 }
 
 TEST(AdjustedLights, TwiceTheLightIsExactlyTwiceTheRadiance) {
-  const std::vector<float> once = picture_of({}), twice = picture_of({{"*", Color::Constant(2.0f)}});
+  const std::vector<float> once = adjusted_picture({}),
+                           twice = adjusted_picture({{"*", Color::Constant(2.0f)}});
   ASSERT_EQ(once.size(), twice.size());
   float brightest = 0.0f;
   for (std::size_t i = 0; i < once.size(); ++i) {
@@ -40,13 +41,14 @@ TEST(AdjustedLights, TwiceTheLightIsExactlyTwiceTheRadiance) {
 }
 
 TEST(AdjustedLights, OffIsBlack) {
-  for (const float value : picture_of({{"*", Color::Zero()}})) ASSERT_EQ(value, 0.0f);
-  const std::vector<float> bulb = picture_of({{"*", Color::Zero()}, {"bulb", Color::Ones()}});
+  for (const float value : adjusted_picture({{"*", Color::Zero()}})) ASSERT_EQ(value, 0.0f);
+  const std::vector<float> bulb = adjusted_picture({{"*", Color::Zero()}, {"bulb", Color::Ones()}});
   EXPECT_GT(*std::max_element(bulb.begin(), bulb.end()), 0.01f);
 }
 
 TEST(AdjustedLights, AColourMultipliesItsChannels) {
-  const std::vector<float> white = picture_of({}), red = picture_of({{"*", Color(1.0f, 0.0f, 0.0f)}});
+  const std::vector<float> white = adjusted_picture({}),
+                           red = adjusted_picture({{"*", Color(1.0f, 0.0f, 0.0f)}});
   double before = 0.0, after = 0.0;
   for (std::size_t i = 0; i < white.size(); i += 3) {
     before += static_cast<double>(white[i]);

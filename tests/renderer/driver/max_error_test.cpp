@@ -18,18 +18,18 @@ namespace {
 using testing::room;
 using tests::TemporaryFolder;
 
-struct Result {
+struct MeasuredPicture {
   Picture picture;
   RenderStatistics statistics;
 };
 
-struct Kind {
+struct Method {
   const char* name;
   Integrator integrator;
   bool denoised;
 };
 
-class MaxError : public ::testing::TestWithParam<Kind> {
+class MaxError : public ::testing::TestWithParam<Method> {
  protected:
   void SetUp() override {
     if (GetParam().denoised) GATELIGHT_NEEDS_DENOISER();
@@ -46,7 +46,7 @@ class MaxError : public ::testing::TestWithParam<Kind> {
     return options;
   }
 
-  Result render(const RenderOptions& options, int stop_at = 0) const {
+  MeasuredPicture render(const RenderOptions& options, int stop_at = 0) const {
     Renderer renderer(scene, options);
     std::atomic<int> calls{0};
     Callbacks callbacks;
@@ -54,7 +54,7 @@ class MaxError : public ::testing::TestWithParam<Kind> {
     callbacks.progress = [&](const Progress& p) {
       if (p.phase == Phase::render && p.error) reported = *p.error;
     };
-    Result result{renderer.render(callbacks), {}};
+    MeasuredPicture result{renderer.render(callbacks), {}};
     result.statistics = renderer.statistics();
     return result;
   }
@@ -84,7 +84,7 @@ TEST_P(MaxError, EndsAtTheFirstCheckThatReachesIt) {
   const double goal = 1.0005 * least;
   RenderOptions limited = options();
   limited.max_error = goal;
-  const Result result = render(limited);
+  const MeasuredPicture result = render(limited);
   EXPECT_EQ(result.statistics.spp, last);
   EXPECT_EQ(result.statistics.ended_by, EndedBy::max_error);
   EXPECT_FALSE(result.statistics.interrupted);
@@ -100,7 +100,7 @@ TEST_P(MaxError, TheSamplesLimitIt) {
   RenderOptions limited = options();
   limited.max_error = 1e-6;
   limited.spp = 9;  // no check
-  const Result result = render(limited);
+  const MeasuredPicture result = render(limited);
   EXPECT_EQ(result.statistics.spp, 9);
   EXPECT_EQ(result.statistics.ended_by, EndedBy::spp);
   EXPECT_FALSE(result.statistics.interrupted);
@@ -111,9 +111,9 @@ TEST_P(MaxError, TheSameBitsForAnyNumberOfThreads) {
   RenderOptions limited = options();
   limited.max_error = 1.001 * error_of(8);
   limited.threads = 1;
-  const Result one = render(limited);
+  const MeasuredPicture one = render(limited);
   limited.threads = 2;
-  const Result two = render(limited);
+  const MeasuredPicture two = render(limited);
   EXPECT_EQ(one.statistics.spp, two.statistics.spp);
   EXPECT_EQ(one.statistics.estimated_error, two.statistics.estimated_error);
   EXPECT_EQ(one.picture.layers[0].values, two.picture.layers[0].values);
@@ -122,16 +122,16 @@ TEST_P(MaxError, TheSameBitsForAnyNumberOfThreads) {
 TEST_P(MaxError, AResumedPictureEndsWithTheSameSamples) {
   RenderOptions limited = options();
   limited.max_error = 1.001 * error_of(11);
-  const Result straight = render(limited);
+  const MeasuredPicture straight = render(limited);
   const TemporaryFolder folder;
   limited.checkpoint.file = folder / "picture";
   limited.checkpoint.resume = true;
-  const Result stopped = render(limited, uses_cache(limited.integrator) ? 8 : 5);
+  const MeasuredPicture stopped = render(limited, uses_cache(limited.integrator) ? 8 : 5);
   EXPECT_EQ(stopped.statistics.ended_by, EndedBy::caller);
   EXPECT_TRUE(stopped.statistics.interrupted);
   // The second time it is over already.
   for (int time = 0; time < 2; ++time) {
-    const Result resumed = render(limited);
+    const MeasuredPicture resumed = render(limited);
     EXPECT_EQ(resumed.statistics.spp, straight.statistics.spp);
     EXPECT_EQ(resumed.statistics.ended_by, EndedBy::max_error);
     EXPECT_EQ(resumed.picture.layers[0].values, straight.picture.layers[0].values);
@@ -149,7 +149,7 @@ TEST_P(MaxError, ATimeLimitGivesAPicture) {
   timed.cache.train_steps.reset();
   timed.spp = kOpenSpp;
   timed.time_limit_seconds = 0.3;
-  const Result result = render(timed);
+  const MeasuredPicture result = render(timed);
   EXPECT_EQ(result.statistics.ended_by, EndedBy::time_limit);
   EXPECT_TRUE(result.statistics.interrupted);
   EXPECT_GE(result.statistics.spp, 1);
@@ -165,9 +165,9 @@ TEST_P(MaxError, ATimeLimitGivesAPicture) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, MaxError,
-                         ::testing::Values(Kind{"path", Integrator::path, false},
-                                           Kind{"denoised", Integrator::path, true},
-                                           Kind{"nrc", Integrator::nrc, true}),
+                         ::testing::Values(Method{"path", Integrator::path, false},
+                                           Method{"denoised", Integrator::path, true},
+                                           Method{"nrc", Integrator::nrc, true}),
                          [](const auto& parameter) { return parameter.param.name; });
 
 /// The true error, against many samples of another seed.

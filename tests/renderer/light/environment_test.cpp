@@ -23,7 +23,6 @@ namespace {
 
 using tests::expect_refusal;
 
-constexpr double kFamily = 1e-5;
 constexpr std::size_t kTests = 8;
 
 /// A dim gradient with a sun of one texel.
@@ -96,10 +95,10 @@ void expect_samples_follow_density(const EnvironmentPicture& picture, std::uint6
     observed[static_cast<std::size_t>(std::clamp(static_cast<int>(row), 0, kRows - 1) * kColumns +
                                       std::clamp(static_cast<int>(column), 0, kColumns - 1))] += 1.0;
   }
-  EXPECT_TRUE(
-      testing::accepts(testing::chi_square_test(observed, expected), testing::sidak(kFamily, kTests)));
+  EXPECT_TRUE(testing::accepts(testing::chi_square_test(observed, expected),
+                               testing::sidak(testing::kFamilySignificance, kTests)));
   // The sampled radiance and the density belong together: their quotient integrates the picture.
-  EXPECT_GE(testing::mean_p_value(mean, radiance, 2e-3), testing::sidak(kFamily, kTests))
+  EXPECT_GE(testing::mean_p_value(mean, radiance, 2e-3), testing::sidak(testing::kFamilySignificance, kTests))
       << mean.mean() << " +- " << mean.standard_error() << ", expected " << radiance;
 }
 

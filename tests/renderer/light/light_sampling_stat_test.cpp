@@ -18,8 +18,7 @@ using testing::LitScene;
 using testing::PlaneHit;
 using testing::Triangle;
 
-constexpr double kFamily = 1e-5;
-constexpr std::size_t kTests = 64;
+constexpr std::size_t kSamplingTests = 64;
 constexpr int kSide = 6;  ///< subdivisions of a triangle's edges: 36 cells each
 
 /// Mass that pdf_triangle() puts on each cell of a triangle: a fine midpoint rule over area.
@@ -103,8 +102,8 @@ double expect_samples_follow_densities(const LitScene& lit, const Vec3& p, const
     const int y = std::clamp(static_cast<int>(best_hit.b2 * kSide), 0, kSide - 1 - x);
     observed[best * kSide * kSide + static_cast<std::size_t>(x * kSide + y)] += 1.0;
   }
-  EXPECT_TRUE(
-      testing::accepts(testing::chi_square_test(observed, expected), testing::sidak(kFamily, kTests)));
+  EXPECT_TRUE(testing::accepts(testing::chi_square_test(observed, expected),
+                               testing::sidak(testing::kFamilySignificance, kSamplingTests)));
   return mass;
 }
 
@@ -222,8 +221,8 @@ TEST(LightSamplingTest, AConstantSkyIsSampledByTheCosine) {
         static_cast<double>(row) / kBins, (row + 1.0) / kBins);
     expected.insert(expected.end(), kBins, mass * 2.0 * M_PI / kBins * kSamples);
   }
-  EXPECT_TRUE(
-      testing::accepts(testing::chi_square_test(observed, expected), testing::sidak(kFamily, kTests)));
+  EXPECT_TRUE(testing::accepts(testing::chi_square_test(observed, expected),
+                               testing::sidak(testing::kFamilySignificance, kSamplingTests)));
   EXPECT_EQ(lit.lights.pdf_environment(Vec3::Zero(), n, -n), 0.0f);
 }
 
@@ -269,8 +268,8 @@ TEST(LightSamplingTest, SharesOfTreeSunAndSkyAgreeWithTheDensities) {
     const bool up = c.n.y() > 0.0f;
     const bool down = c.n.y() < 0.0f;
     const std::vector<double> expected{down ? 0.0 : share, share, down ? 0.0 : share, up ? 0.0 : share};
-    EXPECT_TRUE(
-        testing::accepts(testing::chi_square_test(observed, expected), testing::sidak(kFamily, kTests)));
+    EXPECT_TRUE(testing::accepts(testing::chi_square_test(observed, expected),
+                                 testing::sidak(testing::kFamilySignificance, kSamplingTests)));
   }
 }
 

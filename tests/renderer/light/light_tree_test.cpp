@@ -11,8 +11,6 @@
 namespace gatelight::renderer {
 namespace {
 
-constexpr double kFamily = 1e-5;
-
 std::vector<LightBounds> scattered(int count, std::uint64_t seed, float size = 1.0f) {
   testing::Random random(seed);
   std::vector<LightBounds> lights;
@@ -66,7 +64,7 @@ TEST(LightTreeTest, ChoicesFollowTheirProbabilities) {
         observed[choice.light] += 1.0;
       }
       EXPECT_TRUE(testing::accepts(testing::chi_square_test(observed, expected),
-                                   testing::sidak(kFamily, 3 * sizes.size())))
+                                   testing::sidak(testing::kFamilySignificance, 3 * sizes.size())))
           << size << " lights";
     }
   }

@@ -19,7 +19,7 @@ using testing::add_light;
 using testing::LitScene;
 using testing::Triangle;
 
-const Triangle kOverhead{Vec3(-1, 2, -1), Vec3(1, 2, -1), Vec3(0, 2, 1)};  // faces down
+const Triangle kLamp{Vec3(-1, 2, -1), Vec3(1, 2, -1), Vec3(0, 2, 1)};  // faces down
 
 Vec3 random_vector(testing::Random& random, float size) {
   const float x = random.uniform_float() - 0.5f;
@@ -81,13 +81,13 @@ TEST(LightsTest, SamplesAreFiniteAndAgreeWithTheDensityAtEveryScale) {
 
 TEST(LightsTest, PointsOnTheLightAndInItsPlaneAreHarmless) {
   scene::Scene scene;
-  add_light(scene, {kOverhead}, Color(1, 1, 1), true);
+  add_light(scene, {kLamp}, Color(1, 1, 1), true);
   add_light(scene, testing::quad(Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 0, 1)), Color(1, 1, 1));
   const LitScene lit(std::move(scene));
   testing::Random random(2);
-  std::vector<Vec3> points{kOverhead[0],        kOverhead[1],           0.5f * (kOverhead[0] + kOverhead[1]),
-                           Vec3(0, 2, 0),       Vec3(7, 2, 3),          Vec3(0, 0, 0),
-                           Vec3(0.5f, 0, 0.5f), Vec3(0.2f, 1e-7f, 0.3f)};
+  std::vector<Vec3> points{
+      kLamp[0],      kLamp[1],      0.5f * (kLamp[0] + kLamp[1]), Vec3(0, 2, 0),
+      Vec3(7, 2, 3), Vec3(0, 0, 0), Vec3(0.5f, 0, 0.5f),          Vec3(0.2f, 1e-7f, 0.3f)};
   for (const Vec3& p : points) {
     for (const Vec3& n : {Vec3(0, 1, 0), Vec3(0, -1, 0), Vec3(0, 0, 0)}) {
       for (int i = 0; i < 500; ++i) {
@@ -108,13 +108,12 @@ TEST(LightsTest, PointsOnTheLightAndInItsPlaneAreHarmless) {
 
 TEST(LightsTest, OnlyEmittersCount) {
   scene::Scene scene;
-  const std::uint32_t lamp =
-      add_light(scene, {kOverhead, {kOverhead[0], kOverhead[0], kOverhead[1]}}, Color(1, 1, 1));
-  const std::uint32_t dark = add_light(scene, {kOverhead}, Color(0, 0, 0));
+  const std::uint32_t lamp = add_light(scene, {kLamp, {kLamp[0], kLamp[0], kLamp[1]}}, Color(1, 1, 1));
+  const std::uint32_t dark = add_light(scene, {kLamp}, Color(0, 0, 0));
   scene::Material unlit;
   unlit.emission = Color(1, 1, 1);
   unlit.unlit = true;
-  const std::uint32_t sign = add_light(scene, {kOverhead}, unlit);
+  const std::uint32_t sign = add_light(scene, {kLamp}, unlit);
   const LitScene lit(std::move(scene));
   EXPECT_EQ(lit.lights.emissive_triangles(), 1u);
   EXPECT_GT(lit.lights.bytes(), 0u);
@@ -196,7 +195,7 @@ TEST(LightsTest, ABlackTextureIsNoLight) {
     scene.images.push_back({.name = "black", .width = 1, .height = 1, .channels = 1, .pixels = {0}});
     scene.textures.push_back({.image = 0});
     material.emission_texture.texture = 0;
-    add_light(scene, {kOverhead}, material);
+    add_light(scene, {kLamp}, material);
     return LitScene(std::move(scene));
   }();
   EXPECT_TRUE(lit.lights.empty());
@@ -244,7 +243,7 @@ TEST(LightsTest, AProfileTurnsWithItsLight) {
 /// A point, a spot, one that misses the origin, three suns and a panel. Each has a colour of its own.
 scene::Scene delta_scene() {
   scene::Scene scene;
-  add_light(scene, {kOverhead}, Color(9, 9, 9));
+  add_light(scene, {kLamp}, Color(9, 9, 9));
   const auto add = [&](scene::LightType type, const Color& intensity, const Vec3& at, const Vec3& direction) {
     scene::PunctualLight light;
     light.type = type;
@@ -324,7 +323,7 @@ TEST(LightsTest, DeltaSamplesLeaveOutLightsBelowTheHorizon) {
 
 TEST(LightsTest, WithoutDeltaLightsNoTableIsBuiltForThem) {
   scene::Scene scene;
-  add_light(scene, {kOverhead}, Color(1, 1, 1));
+  add_light(scene, {kLamp}, Color(1, 1, 1));
   scene.lights.emplace_back();
   const LitScene both(scene);
   scene.lights.clear();

@@ -28,7 +28,7 @@ using ::testing::Each;
 using tests::expect_message;
 
 /// Blotches with edges, points and noise; in [0, scale].
-Picture pattern(int width, int height, std::uint64_t seed, float scale = 1.0f) {
+Picture blotches(int width, int height, std::uint64_t seed, float scale = 1.0f) {
   Random random(seed);
   std::vector<float> values;
   for (int y = 0; y < height; ++y) {
@@ -42,8 +42,8 @@ Picture pattern(int width, int height, std::uint64_t seed, float scale = 1.0f) {
   return rgb(width, height, std::move(values));
 }
 
-/// Some pixels of the pattern are changed: a little everywhere, much at some points.
-Picture disturbed(Picture picture, std::uint64_t seed, float scale = 1.0f) {
+/// Some pixels of the blotches are changed: a little everywhere, much at some points.
+Picture with_outliers(Picture picture, std::uint64_t seed, float scale = 1.0f) {
   Random random(seed);
   for (float& value : picture.layers[0].values) {
     value += scale * 0.1f * (random.uniform_float() - 0.5f);
@@ -87,8 +87,8 @@ class LdrFlipShapes : public ::testing::TestWithParam<Shape> {};
 
 TEST_P(LdrFlipShapes, EveryPixelAgreesWithTheWholeConvolutions) {
   const auto [width, height, ppd] = GetParam();
-  const Picture a = pattern(width, height, 1);
-  const Picture b = disturbed(a, 2);
+  const Picture a = blotches(width, height, 1);
+  const Picture b = with_outliers(a, 2);
   const FlipResult result = ldr(a, b, {.pixels_per_degree = ppd});
   EXPECT_EQ(result.width, width);
   EXPECT_EQ(result.height, height);
@@ -105,7 +105,7 @@ INSTANTIATE_TEST_SUITE_P(Shapes, LdrFlipShapes,
 
 TEST(LdrFlip, EqualPicturesGiveExactlyZero) {
   for (const float scale : {1e-6f, 1.0f, 1e6f}) {
-    const Picture picture = pattern(33, 41, 3, scale);
+    const Picture picture = blotches(33, 41, 3, scale);
     const FlipResult result = ldr(picture, picture);
     EXPECT_THAT(result.errors, Each(0.0f));
     EXPECT_EQ(result.summary.mean, 0.0);
@@ -116,8 +116,8 @@ TEST(LdrFlip, EqualPicturesGiveExactlyZero) {
 }
 
 TEST(LdrFlip, IsSymmetric) {
-  const Picture a = pattern(31, 35, 4);
-  const Picture b = disturbed(a, 5);
+  const Picture a = blotches(31, 35, 4);
+  const Picture b = with_outliers(a, 5);
   EXPECT_EQ(ldr(a, b).errors, ldr(b, a).errors);
 }
 
@@ -140,8 +140,8 @@ TEST(LdrFlip, EvenPicturesHaveClosedForms) {
 }
 
 TEST(LdrFlip, RadianceIsShownWithExposureAndCurveAndCut) {
-  const Picture a = pattern(9, 8, 6);
-  const Picture b = disturbed(a, 7);
+  const Picture a = blotches(9, 8, 6);
+  const Picture b = with_outliers(a, 7);
   const auto changed = [](Picture picture, auto&& change) {
     for (float& value : picture.layers[0].values) value = change(value);
     return picture;
@@ -156,8 +156,8 @@ TEST(LdrFlip, RadianceIsShownWithExposureAndCurveAndCut) {
 }
 
 TEST(LdrFlip, TheSameBitsForAnyNumberOfThreads) {
-  const Picture a = pattern(50, 150, 8);
-  const Picture b = disturbed(a, 9);
+  const Picture a = blotches(50, 150, 8);
+  const Picture b = with_outliers(a, 9);
   const auto with_threads = [&](std::size_t threads) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
     return hdr(a, b);
@@ -169,8 +169,8 @@ TEST(LdrFlip, TheSameBitsForAnyNumberOfThreads) {
 }
 
 TEST(HdrFlip, IsTheLargestLdrErrorOverTheExposures) {
-  const Picture a = pattern(14, 11, 10, 50.0f);
-  const Picture b = disturbed(a, 11, 50.0f);
+  const Picture a = blotches(14, 11, 10, 50.0f);
+  const Picture b = with_outliers(a, 11, 50.0f);
   const FlipResult result = hdr(a, b);
   std::vector<double> expected(result.errors.size(), 0.0);
   for (int i = 0; i < result.exposures; ++i) {
@@ -217,7 +217,7 @@ TEST(HdrFlip, ExposuresShowTheBrightestAndTheMedianJustBelowWhite) {
 
 TEST(HdrFlip, ReportsProgressAndCanBeEndedBeforeEachExposure) {
   const Picture a = rgb(5, 1, {0.25f, 0.25f, 0.25f, 20, 20, 20, 0.5f, 0.5f, 0.5f, 0.1f, 0.1f, 0.1f, 7, 7, 7});
-  const Picture b = disturbed(a, 14, 20.0f);
+  const Picture b = with_outliers(a, 14, 20.0f);
   std::vector<double> reported;
   const auto call = [&](std::size_t most) {
     reported.clear();
@@ -242,8 +242,8 @@ TEST(HdrFlip, BlackReferencesHaveExposuresToo) {
 }
 
 TEST(HdrFlip, DoesNotDependOnTheUnitOfRadiance) {
-  const Picture a = pattern(20, 10, 12);
-  const Picture b = disturbed(a, 13);
+  const Picture a = blotches(20, 10, 12);
+  const Picture b = with_outliers(a, 13);
   const FlipResult expected = hdr(a, b);
   for (const float scale : {0x1p-20f, 0x1p20f}) {
     Picture scaled_a = a;
@@ -304,7 +304,7 @@ TEST(FlipFilters, BlursKeepConstantsAndDerivativesRemoveThem) {
   }
 }
 
-std::string refusal(const Picture& reference, const Picture& test) {
+std::string common_refusal(const Picture& reference, const Picture& test) {
   std::string first;
   for (const auto compare : {&ldr, &hdr}) {
     const std::string message = tests::refusal<InputError>([&] { compare(reference, test, {}); });
@@ -316,15 +316,15 @@ std::string refusal(const Picture& reference, const Picture& test) {
 
 TEST(Flip, UnusablePicturesAreRefusedByName) {
   const Picture good = uniform(2, 1, {1, 1, 1});
-  expect_message(refusal(good, uniform(1, 2, {1, 1, 1})), {"ref.exr", "2x1", "test.exr", "1x2"});
+  expect_message(common_refusal(good, uniform(1, 2, {1, 1, 1})), {"ref.exr", "2x1", "test.exr", "1x2"});
   const Picture nan = rgb(2, 1, {1, 1, 1, 1, std::nanf(""), 1});
-  expect_message(refusal(good, nan), {"test.exr", "1"});
-  expect_message(refusal(uniform(2, 1, {1, std::numeric_limits<float>::infinity(), 1}), good),
+  expect_message(common_refusal(good, nan), {"test.exr", "1"});
+  expect_message(common_refusal(uniform(2, 1, {1, std::numeric_limits<float>::infinity(), 1}), good),
                  {"ref.exr", "2"});
   Picture depth{.width = 2, .height = 1};
   depth.layers = {{.name = "depth", .channels = {"Z"}, .values = {1.0f, 2.0f}}};
-  expect_message(refusal(good, depth), {"test.exr"});
-  expect_message(refusal(rgb(0, 0, {}), rgb(0, 0, {})), {"ref.exr"});
+  expect_message(common_refusal(good, depth), {"test.exr"});
+  expect_message(common_refusal(rgb(0, 0, {}), rgb(0, 0, {})), {"ref.exr"});
 }
 
 TEST(Flip, PixelsPerDegreeHaveARange) {

@@ -91,7 +91,7 @@ TEST(Merge, MetadataKeepsWhatAllHaveInCommon) {
   EXPECT_FALSE(merge(a, picture({1, 2, 3}, {{"spp", "1"}})).metadata.contains("seed"));
 }
 
-std::string refusal(const Picture& a, const Picture& b) {
+std::string refusal_to_merge(const Picture& a, const Picture& b) {
   return tests::refusal<InputError>([&] { merge(a, b); });
 }
 
@@ -100,17 +100,17 @@ TEST(Merge, RefusesMismatchesByName) {
   Picture wide = a;
   wide.width = 2;
   wide.layers[0].values.resize(6);
-  expect_message(refusal(a, wide), {"a.exr", "1x1", "b.exr", "2x1"});
+  expect_message(refusal_to_merge(a, wide), {"a.exr", "1x1", "b.exr", "2x1"});
   Picture elsewhere = a;
   elsewhere.x0 = 4;
-  expect_message(refusal(a, elsewhere), {"4,0"});
+  expect_message(refusal_to_merge(a, elsewhere), {"4,0"});
   Picture more = a;
   more.layers.push_back({.name = "depth", .channels = {"Z"}, .values = {1}});
-  expect_message(refusal(a, more), {"depth(Z)"});
-  expect_message(refusal(a, picture({1, 2, 3})), {"b.exr"});
-  expect_message(refusal(picture({1, 2, 3}), a), {"a.exr"});
+  expect_message(refusal_to_merge(a, more), {"depth(Z)"});
+  expect_message(refusal_to_merge(a, picture({1, 2, 3})), {"b.exr"});
+  expect_message(refusal_to_merge(picture({1, 2, 3}), a), {"a.exr"});
   for (const char* spp : {"0", "many", "-4", "4x"}) {
-    expect_message(refusal(a, picture({1, 2, 3}, {{"spp", spp}})), {"b.exr", spp});
+    expect_message(refusal_to_merge(a, picture({1, 2, 3}, {{"spp", spp}})), {"b.exr", spp});
   }
 }
 
@@ -118,15 +118,15 @@ TEST(Merge, RefusesPartsOfOtherPicturesAndOtherIntegrators) {
   const Picture a = picture({1, 2, 3}, {{"integrator", "path"}});
   Picture part = a;
   part.full_width = 4;
-  expect_message(refusal(a, part), {"1x1", "4x1"});
+  expect_message(refusal_to_merge(a, part), {"1x1", "4x1"});
   const Picture other = picture({1, 2, 3}, {{"integrator", "ao"}});
-  expect_message(refusal(a, other), {"a.exr", "path", "ao"});
-  EXPECT_EQ(refusal(a, picture({1, 2, 3})), "") << "not every program writes its integrator";
+  expect_message(refusal_to_merge(a, other), {"a.exr", "path", "ao"});
+  EXPECT_EQ(refusal_to_merge(a, picture({1, 2, 3})), "") << "not every program writes its integrator";
 }
 
 TEST(Merge, CountsAndSumsDoNotOverflow) {
   const Picture many = picture({1, 2, 3}, {{"spp", "18446744073709551615"}});
-  expect_message(refusal(many, picture({1, 2, 3}, {{"spp", "1"}})), {"b.exr", "64"});
+  expect_message(refusal_to_merge(many, picture({1, 2, 3}, {{"spp", "1"}})), {"b.exr", "64"});
   Picture counted = picture({1, 2, 3});
   counted.layers.push_back({.name = "samples", .channels = {"count"}, .values = {3e38f}});
   EXPECT_THAT(merge(counted, counted).find("samples")->values,

@@ -15,8 +15,8 @@ namespace {
 using testing::SceneBuilder;
 using testing::view_from;
 
-constexpr int kWidth = 64, kHeight = 48;
-constexpr PixelRect kRect{0, 0, kWidth, kHeight};
+constexpr int kViewWidth = 64, kViewHeight = 48;
+constexpr PixelRect kViewRect{0, 0, kViewWidth, kViewHeight};
 
 TEST(CameraPixels, AreTheInverseOfRays) {
   View view(view_from(Vec3(1, 2, 3), Vec3(0.5f, 0, -1)));
@@ -26,7 +26,7 @@ TEST(CameraPixels, AreTheInverseOfRays) {
   View panorama = view;
   panorama.panorama = true;
   for (const View& v : {view, parallel, panorama}) {
-    const Camera camera(v, kWidth, kHeight);
+    const Camera camera(v, kViewWidth, kViewHeight);
     for (const Vec2& pixel : {Vec2(0.5f, 0.5f), Vec2(40.25f, 13.0f), Vec2(63.0f, 47.5f)}) {
       const Ray ray = camera.ray(pixel.x(), pixel.y()).ray;
       const std::optional<Vec2> found = camera.pixel_of(ray.origin + 5.0f * ray.direction);
@@ -34,7 +34,7 @@ TEST(CameraPixels, AreTheInverseOfRays) {
       EXPECT_LT((*found - pixel).norm(), 1e-3f);
     }
   }
-  const Camera camera(view, kWidth, kHeight);
+  const Camera camera(view, kViewWidth, kViewHeight);
   EXPECT_FALSE(camera.pixel_of(Vec3(2, 4, 9))) << "behind it";
 }
 
@@ -60,9 +60,9 @@ TEST(VisiblePoints, FollowWhatMoves) {
   now.translation() = Vec3(0.3f, 0.0f, 0.5f);
   SceneBuilder earlier = moving_quad(before), present = moving_quad(now);
   const World world(present.scene());
-  const Camera camera(present.scene().cameras[0], kWidth, kHeight);
+  const Camera camera(present.scene().cameras[0], kViewWidth, kViewHeight);
   const EarlierView view{Moment(earlier.scene()), camera};
-  const VisiblePoints points = trace_visible_points(world, camera, kRect, &view);
+  const VisiblePoints points = trace_visible_points(world, camera, kViewRect, &view);
   int moved = 0;
   for (std::size_t i = 0; i < points.now.size(); ++i) {
     const VisiblePoint& point = points.now[i];
@@ -82,9 +82,9 @@ TEST(VisiblePoints, HiddenThingsHaveNoEarlierPlace) {
   SceneBuilder earlier = moving_quad(Affine::Identity()), present = moving_quad(Affine::Identity());
   earlier.scene().instances[1].hidden = true;
   const World world(present.scene());
-  const Camera camera(present.scene().cameras[0], kWidth, kHeight);
+  const Camera camera(present.scene().cameras[0], kViewWidth, kViewHeight);
   const EarlierView view{Moment(earlier.scene()), camera};
-  const VisiblePoints points = trace_visible_points(world, camera, kRect, &view);
+  const VisiblePoints points = trace_visible_points(world, camera, kViewRect, &view);
   for (std::size_t i = 0; i < points.now.size(); ++i)
     EXPECT_EQ(points.earlier[i].has_value(), points.now[i].hit.instance == 0);
 }
@@ -98,11 +98,11 @@ TEST(VisiblePoints, InAMirrorAreWhereTheImageWas) {
   const int matte = builder.material(SceneBuilder::lambert(Color::Constant(0.5f)));
   builder.quad(matte, Vec3(9, -9, 9), Vec3(-18, 0, 0), Vec3(0, 18, 0));
   const World world(builder.scene());
-  const Camera camera(view_from(Vec3(0, 0, 4), Vec3::Zero()), kWidth, kHeight);
-  const Camera before(view_from(Vec3(0.5f, 0, 4), Vec3(0.5f, 0, 0)), kWidth, kHeight);
+  const Camera camera(view_from(Vec3(0, 0, 4), Vec3::Zero()), kViewWidth, kViewHeight);
+  const Camera before(view_from(Vec3(0.5f, 0, 4), Vec3(0.5f, 0, 0)), kViewWidth, kViewHeight);
   const EarlierView view{Moment(builder.scene()), before};
-  const VisiblePoints points = trace_visible_points(world, camera, kRect, &view);
-  const std::size_t middle = kRect.index(kWidth / 2, kHeight / 2);
+  const VisiblePoints points = trace_visible_points(world, camera, kViewRect, &view);
+  const std::size_t middle = kViewRect.index(kViewWidth / 2, kViewHeight / 2);
   ASSERT_EQ(points.now[middle].hit.instance, 1u);
   ASSERT_TRUE(points.earlier[middle]);
   const Vec3& seen = points.now[middle].position;
@@ -111,7 +111,7 @@ TEST(VisiblePoints, InAMirrorAreWhereTheImageWas) {
   const Vec3 image(seen.x(), seen.y(), -9.0f);
   EXPECT_LT((points.earlier[middle]->pixel - *before.pixel_of(image)).norm(), 1e-2f);
   // 13 m away, the camera's half a metre is 2.1 pixels.
-  EXPECT_NEAR(points.earlier[middle]->pixel.x() - (kWidth / 2 + 0.5f), -1.91f, 0.05f);
+  EXPECT_NEAR(points.earlier[middle]->pixel.x() - (kViewWidth / 2 + 0.5f), -1.91f, 0.05f);
 }
 
 }  // namespace

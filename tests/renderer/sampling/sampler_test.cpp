@@ -14,8 +14,6 @@
 namespace gatelight::renderer {
 namespace {
 
-constexpr double kFamily = 1e-5;
-
 const std::array kKinds{SamplerKind::sobol, SamplerKind::independent};
 
 TEST(SamplerTest, SobolPairsFillEveryElementaryInterval) {
@@ -110,7 +108,7 @@ TEST(SamplerTest, EachSampleIsUniformOverPixels) {
   constexpr int kCells = 16;
   constexpr int kPixels = 40000;
   const std::array<std::uint32_t, 4> indices{0, 1, 2, 100000};
-  const double significance = testing::sidak(kFamily, 2 * indices.size());
+  const double significance = testing::sidak(testing::kFamilySignificance, 2 * indices.size());
   for (const SamplerKind kind : kKinds) {
     for (const std::uint32_t index : indices) {
       std::vector<double> observed(kCells * kCells, 0.0);
@@ -139,7 +137,7 @@ TEST(SamplerTest, DimensionsAndPixelsAreUncorrelated) {
     const std::vector<double> expected(observed.size(), kSamples / static_cast<double>(observed.size()));
     return testing::chi_square_test(observed, expected);
   };
-  const double significance = testing::sidak(kFamily, 2 * 8 * 4);
+  const double significance = testing::sidak(testing::kFamilySignificance, 2 * 8 * 4);
   for (const SamplerKind kind : kKinds) {
     for (std::uint32_t d = 0; d < 8; ++d) {
       const auto at = [kind](std::uint32_t x, std::uint32_t i) { return Sampler(kind, 0, x, 0, i); };
@@ -182,7 +180,7 @@ TEST(SamplerTest, SobolIntegratesWithFarLessVariance) {
 }
 
 TEST(SamplerTest, MeansAreUnbiased) {
-  const double significance = testing::sidak(kFamily, 2 * 3);
+  const double significance = testing::sidak(testing::kFamilySignificance, 2 * 3);
   for (const SamplerKind kind : kKinds) {
     std::array<testing::Moments, 3> moments;
     for (std::uint32_t pixel = 0; pixel < 20000; ++pixel) {

@@ -11,7 +11,6 @@
 namespace gatelight::renderer {
 namespace {
 
-constexpr double kFamily = 1e-5;
 constexpr int kSamples = 200000;
 constexpr int kBins = 24;
 
@@ -44,7 +43,8 @@ void expect_directions_follow(Sample&& sample, Pdf&& pdf, double z0, std::uint64
     }
   }
   EXPECT_NEAR(total, 1.0, 1e-5);
-  EXPECT_TRUE(testing::accepts(testing::chi_square_test(observed, expected), testing::sidak(kFamily, 8)));
+  EXPECT_TRUE(testing::accepts(testing::chi_square_test(observed, expected),
+                               testing::sidak(testing::kFamilySignificance, 8)));
 }
 
 TEST(WarpTest, CosineHemisphereFollowsItsDensity) {
@@ -76,7 +76,8 @@ TEST(WarpTest, ConcentricDiskIsUniform) {
     observed[static_cast<std::size_t>(row * kBins + column)] += 1.0;
   }
   const std::vector<double> expected(observed.size(), kSamples / static_cast<double>(observed.size()));
-  EXPECT_TRUE(testing::accepts(testing::chi_square_test(observed, expected), testing::sidak(kFamily, 8)));
+  EXPECT_TRUE(testing::accepts(testing::chi_square_test(observed, expected),
+                               testing::sidak(testing::kFamilySignificance, 8)));
 }
 
 TEST(WarpTest, TriangleIsUniformByArea) {
@@ -100,7 +101,8 @@ TEST(WarpTest, TriangleIsUniformByArea) {
     observed[static_cast<std::size_t>(cell)] += 1.0;
   }
   const std::vector<double> expected(observed.size(), kSamples / static_cast<double>(observed.size()));
-  EXPECT_TRUE(testing::accepts(testing::chi_square_test(observed, expected), testing::sidak(kFamily, 8)));
+  EXPECT_TRUE(testing::accepts(testing::chi_square_test(observed, expected),
+                               testing::sidak(testing::kFamilySignificance, 8)));
 }
 
 TEST(WarpTest, BasesAreOrthonormalAndRightHanded) {

@@ -180,12 +180,12 @@ TEST_F(Estimators, RouletteChangesNoMean) {
 
 TEST_F(Estimators, SobolAndIndependentSamplesAgree) {
   // The variance layer is only a bound for Sobol samples, so the variance is that over seeds.
-  constexpr std::uint32_t kSeeds = 16;
+  constexpr std::uint32_t kSobolSeeds = 16;
   RenderOptions options = base_options();
   options.sampler = SamplerKind::sobol;
   options.spp = 32;
   std::vector<Moments> moments(reference_->size());
-  for (std::uint32_t seed = 0; seed < kSeeds; ++seed) {
+  for (std::uint32_t seed = 0; seed < kSobolSeeds; ++seed) {
     options.seed = 100 + seed;
     const std::vector<Estimate> one = render(options);
     for (std::size_t i = 0; i < one.size(); ++i) moments[i].add(one[i].mean);
@@ -194,7 +194,7 @@ TEST_F(Estimators, SobolAndIndependentSamplesAgree) {
   for (const Moments& m : moments) {
     sobol.push_back({m.mean(), m.standard_error() * m.standard_error()});
   }
-  expect_agreement(sobol, *reference_, kSeeds - 1);
+  expect_agreement(sobol, *reference_, kSobolSeeds - 1);
 }
 
 TEST_F(Estimators, TwoPercentMoreLightIsDetected) {

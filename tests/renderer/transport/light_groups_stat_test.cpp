@@ -15,7 +15,7 @@ namespace {
 
 using testing::Moments;
 
-constexpr int kSeeds = 16;
+constexpr int kGroupSeeds = 16;
 constexpr std::size_t kBlocks = 6;
 
 /// The mean luminance of blocks of 16x16 pixels of a picture, for each seed.
@@ -62,7 +62,7 @@ TEST(LightGroupsStat, ALayerIsThePictureOfOnlyItsLights) {
   options.clamp = 0.0f;
   const std::vector<std::string> names = {"bulb", "torch", "noon", "panel", "sky", "rest"};
   std::vector<Blocks> layers(names.size()), alone(names.size());
-  for (int seed = 0; seed < kSeeds; ++seed) {
+  for (int seed = 0; seed < kGroupSeeds; ++seed) {
     options.seed = static_cast<std::uint32_t>(seed);
     const Picture picture = Renderer(all, options).render();
     for (std::size_t g = 0; g < names.size(); ++g) add(picture.find("light-" + names[g])->values, layers[g]);
@@ -73,7 +73,7 @@ TEST(LightGroupsStat, ALayerIsThePictureOfOnlyItsLights) {
   for (std::size_t g = 0; g < names.size(); ++g) {
     options.environment = names[g] == "sky" ? sky : EnvironmentOptions{};
     const scene::Scene scene = only(names[g]);
-    for (int seed = 0; seed < kSeeds; ++seed) {
+    for (int seed = 0; seed < kGroupSeeds; ++seed) {
       options.seed = static_cast<std::uint32_t>(1000 + seed);
       add(Renderer(scene, options).render().layers.front().values, alone[g]);
     }

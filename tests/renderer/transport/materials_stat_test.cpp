@@ -22,7 +22,7 @@ using scene::Material;
 using testing::Moments;
 using testing::SceneBuilder;
 
-constexpr int kSize = 34;
+constexpr int kBallSize = 34;
 constexpr float kPixelsPerRadius = 14.0f;
 
 struct Case {
@@ -83,7 +83,7 @@ Picture ball(const Material& material, int spp) {
   SceneBuilder builder;
   builder.sphere(builder.material(material), Vec3(0, 0, 0), 1.0f, 96, true);
   RenderOptions options;
-  options.width = options.height = kSize;
+  options.width = options.height = kBallSize;
   options.spp = spp;
   // Glass keeps some light inside for long; roulette would only add noise.
   options.max_depth = options.min_depth = 100;
@@ -95,14 +95,14 @@ Picture ball(const Material& material, int spp) {
   view.eye = Vec3(0, 30, 40);
   options.camera.look_at = view;
   options.camera.look_at->target = Vec3::Zero();
-  options.camera.fov_degrees = 2.0f * std::atan(0.5f * kSize / kPixelsPerRadius / 50.0f) * 180.0f / kPi;
+  options.camera.fov_degrees = 2.0f * std::atan(0.5f * kBallSize / kPixelsPerRadius / 50.0f) * 180.0f / kPi;
   return Renderer(builder.scene(), options).render();
 }
 
 /// Distance of a pixel's centre from the middle of the ball, in radii.
 float radius_at(int x, int y) {
-  return std::hypot(static_cast<float>(x) + 0.5f - 0.5f * kSize,
-                    static_cast<float>(y) + 0.5f - 0.5f * kSize) /
+  return std::hypot(static_cast<float>(x) + 0.5f - 0.5f * kBallSize,
+                    static_cast<float>(y) + 0.5f - 0.5f * kBallSize) /
          kPixelsPerRadius;
 }
 
@@ -127,18 +127,18 @@ TEST_P(WhiteFurnace, ABallThatAbsorbsNothingIsInvisible) {
   Moments rim;
   Moments sky;
   const auto ring = [](float radius) { return static_cast<std::size_t>(radius * 12.0f); };
-  for (int y = 0; y < kSize; ++y) {
-    for (int x = 0; x < kSize; ++x) {
-      const std::size_t i = static_cast<std::size_t>(3 * (y * kSize + x));
+  for (int y = 0; y < kBallSize; ++y) {
+    for (int x = 0; x < kBallSize; ++x) {
+      const std::size_t i = static_cast<std::size_t>(3 * (y * kBallSize + x));
       const float r = radius_at(x, y);
       (r < kInner ? inner : r < kOuter ? rim : sky).add(values[i]);
       ring_variance[ring(r)].add(variances[i]);
     }
   }
   double worst = 0.0;
-  for (int y = 0; y < kSize; ++y) {
-    for (int x = 0; x < kSize; ++x) {
-      const std::size_t i = static_cast<std::size_t>(3 * (y * kSize + x));
+  for (int y = 0; y < kBallSize; ++y) {
+    for (int x = 0; x < kBallSize; ++x) {
+      const std::size_t i = static_cast<std::size_t>(3 * (y * kBallSize + x));
       const float r = radius_at(x, y);
       if (r >= kInner) continue;
       const double variance = std::max<double>(variances[i], ring_variance[ring(r)].mean());
@@ -164,15 +164,15 @@ TEST(MaterialsStat, AbsorptionInGlassIsVisibleInTheFurnace) {
   material.attenuation_distance = 2.0f;
   const Picture picture = ball(material, 64);
   // With an index of 1 rays go straight on, by the law of Beer over the chord 2 sqrt(1 - r^2).
-  for (int y = 0; y < kSize; ++y) {
-    for (int x = 0; x < kSize; ++x) {
+  for (int y = 0; y < kBallSize; ++y) {
+    for (int x = 0; x < kBallSize; ++x) {
       const float r = radius_at(x, y);
       if (r > 0.85f) continue;
       const float chord = 2.0f * std::sqrt(1.0f - r * r);
       for (std::size_t c = 0; c < 3; ++c) {
         const float expected =
             std::pow(material.attenuation_color[static_cast<Eigen::Index>(c)], chord / 2.0f);
-        EXPECT_NEAR(picture.layers[0].values[static_cast<std::size_t>(3 * (y * kSize + x)) + c], expected,
+        EXPECT_NEAR(picture.layers[0].values[static_cast<std::size_t>(3 * (y * kBallSize + x)) + c], expected,
                     0.01f);
       }
     }

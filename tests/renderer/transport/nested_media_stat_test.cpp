@@ -19,12 +19,12 @@ using testing::Moments;
 using testing::SceneBuilder;
 
 // Of the means of this file.
-const double kSignificance = testing::sidak(1e-4, 16);
+const double kMediaSignificance = testing::sidak(1e-4, 16);
 
 constexpr float kWater = 1.33f, kGlass = 1.5f;
 
 void expect_mean(const Moments& moments, double expected) {
-  EXPECT_GT(testing::mean_p_value(moments, expected, 1e-5), kSignificance)
+  EXPECT_GT(testing::mean_p_value(moments, expected, 1e-5), kMediaSignificance)
       << "mean " << moments.mean() << " +- " << moments.standard_error() << ", expected " << expected;
 }
 

@@ -18,7 +18,7 @@ using testing::channel_moments;
 using testing::Moments;
 using testing::SceneBuilder;
 
-const double kSignificance = testing::sidak(1e-4, 40);
+const double kPathSignificance = testing::sidak(1e-4, 40);
 
 RenderOptions looking(const Vec3& eye, const Vec3& target, float fov_degrees) {
   RenderOptions options;
@@ -40,7 +40,7 @@ void expect_radiance(const scene::Scene& s, const RenderOptions& options, double
                      double rounding = 1e-5) {
   Renderer renderer(s, options);
   const Moments m = channel_moments(renderer.render(), 0);
-  EXPECT_GT(testing::mean_p_value(m, expected, rounding), kSignificance)
+  EXPECT_GT(testing::mean_p_value(m, expected, rounding), kPathSignificance)
       << "mean " << m.mean() << " +- " << m.standard_error() << ", expected " << expected;
 }
 
@@ -150,7 +150,7 @@ TEST(PathStat, ConvexObjectUnderAConstantSkyShowsAlbedoTimesSky) {
   const Picture picture = renderer.render();
   for (std::size_t c = 0; c < 3; ++c) {
     const double expected = 2.0 * std::array{0.8, 0.4, 0.1}[c];
-    EXPECT_GT(testing::mean_p_value(channel_moments(picture, c), expected, 1e-4), kSignificance) << c;
+    EXPECT_GT(testing::mean_p_value(channel_moments(picture, c), expected, 1e-4), kPathSignificance) << c;
   }
 }
 
