@@ -56,10 +56,12 @@ def same_steps():
 
 
 def copy_sources(system, target):
-    """The files that git knows, as a build from a checkout has them."""
+    """The files that git knows, and what is left of a build on this machine, which must not disturb."""
     for name in run(["git", "-C", script.ROOT, "ls-files"]).splitlines():
         system.copy_in(os.path.join(script.ROOT, name), os.path.join(target, name))
     shutil.copytree(os.path.join(script.ROOT, ".git"), system.path(os.path.join(target, ".git")), symlinks=True)
+    os.makedirs(system.path(os.path.join(target, "build", "packages")))
+    script.write(system.path(os.path.join(target, "build", "packages", "CMakeCache.txt")), "CMAKE_HOME_DIRECTORY:INTERNAL=/elsewhere\n")
 
 
 def copy_denoiser(system):
