@@ -191,8 +191,8 @@ void add_picture_files(OptionGroup& group, std::vector<std::string>& outputs,
   group.add(not_in_sweep(choice("exr", exr_float, kExr, "Precision of colours in EXR files")));
   group.add(common(number_or(
       "auto", "exposure", stops, kStops, "EV",
-      "Stops by which displayed pictures (PNG, JPEG, TIFF) are brighter; auto: by the picture's own light, "
-      "printed at the end; the presets of radiance have auto")));
+      "Stops by which displayed pictures (PNG, JPEG, TIFF) are brighter; auto, that of presets of radiance: "
+      "by the picture's own light, printed at the end")));
   group.add(not_in_sweep(number("white-balance", white_balance, kKelvin, "KELVIN",
                                 "Colour of light that displayed pictures show as white")));
   group.add(common(

@@ -140,12 +140,19 @@ Option light_groups_option(std::vector<LightGroup>& groups) {
 Option integrator_option(Integrator& integrator, bool& choose) {
   constexpr const char* kAuto = "auto";
   const auto value = [&]() -> OptionValue { return choose ? kAuto : enum_name(integrator); };
-  const auto read = [&](const std::string& text) {
+  const std::string names = fmt::format("{}|{}", choice_names(kEnumNames<Integrator>), kAuto);
+  const auto read = [&, names](const std::string& text) {
     choose = text == kAuto;
-    integrator = choose ? Integrator::nrc : parse_choice("--integrator", text, kEnumNames<Integrator>);
+    integrator = Integrator::nrc;
+    if (choose) return;
+    const auto& known = kEnumNames<Integrator>;
+    const auto chosen =
+        std::find_if(std::begin(known), std::end(known), [&](const auto& name) { return name.name == text; });
+    if (chosen == std::end(known)) refuse_choice("--integrator", text, names);
+    integrator = chosen->value;
   };
   return {.name = "integrator",
-          .unit = fmt::format("{}|{}", choice_names(kEnumNames<Integrator>), kAuto),
+          .unit = names,
           .help =
               "What is rendered: radiance (path) or ambient occlusion (ao), or the same with a cache that is "
               "trained first (nrc, nao); auto, that of the presets: nrc, or path where light paths are too "
