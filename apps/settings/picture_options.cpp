@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "apps/settings/light_flags.h"
+#include "apps/settings/parsing.h"
 #include "base/errors.h"
 
 // Structured bindings name every member of the structs: a new member does not compile until it is described

@@ -10,16 +10,16 @@ namespace {
 
 TEST(Wavelengths, StayWhiteOnAverage) {
   Eigen::Array3d mean = Eigen::Array3d::Zero();
-  constexpr int kSamples = 1 << 16;
+  constexpr int kWavelengths = 1 << 16;
   float before = 390.0f;
-  for (int i = 0; i < kSamples; ++i) {
-    const Wavelength w = sample_wavelength((static_cast<float>(i) + 0.5f) / kSamples);
+  for (int i = 0; i < kWavelengths; ++i) {
+    const Wavelength w = sample_wavelength((static_cast<float>(i) + 0.5f) / kWavelengths);
     EXPECT_GE(w.nm, before) << i;
     EXPECT_LE(w.nm, 710.0f);
     EXPECT_TRUE((w.color >= 0.0f).all());
     EXPECT_NEAR(w.color.sum(), 3.0f, 1e-4f);
     before = w.nm;
-    mean += w.color.cast<double>() / kSamples;
+    mean += w.color.cast<double>() / kWavelengths;
   }
   for (int c = 0; c < 3; ++c) EXPECT_NEAR(mean[c], 1.0, 2e-4);
 }
