@@ -47,7 +47,7 @@ class Program:
 
     def run(self, ranks, *words, environment=None):
         process = self.start(ranks, *words, environment=environment)
-        output, _ = process.communicate(timeout=300)
+        output = output_of(process, 300)
         return process.returncode, output
 
     def processes(self, launched, ranks, seconds=60):
@@ -59,6 +59,12 @@ class Program:
                 return sorted(found)
             time.sleep(0.02)
         raise TimeoutError(f"{ranks} ranks did not start")
+
+
+def output_of(process, seconds):
+    """Waits for the end. Open MPI 5 also prints the zero byte behind its own message, before any line of ours."""
+    output, _ = process.communicate(timeout=seconds)
+    return output.replace("\0", "")
 
 
 def executable(pid):
