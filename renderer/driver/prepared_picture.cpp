@@ -142,8 +142,11 @@ void PreparedPicture::choose_options(const RenderOptions& chosen) {
   const ChosenDenoiser denoiser_before = chosen_denoiser;
   chosen_denoiser = choose_denoiser(chosen.denoise, ranks_);
   if (chosen_denoiser.library != denoiser_before.library) denoiser.reset();
-  options_of_picture = with_denoiser(with_sky(scene, checked(chosen)), chosen_denoiser);
-  check_background(options_of_picture.background, options_of_picture.width, options_of_picture.height);
+  RenderOptions next = with_denoiser(with_sky(scene, checked(chosen)), chosen_denoiser);
+  const RenderOptions& before = options_of_picture;
+  if (next.background != before.background || next.width != before.width || next.height != before.height)
+    check_background(next.background, next.width, next.height);
+  options_of_picture = std::move(next);
   options = options_of_film(options_of_picture);
   region = region_of(options);
   filter = FilterSampler(options.filter, options.filter_width);
