@@ -2,13 +2,13 @@
 
 #include <fmt/format.h>
 #include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <limits>
 
 #include "base/clock.h"
 #include "base/errors.h"
+#include "base/parallel/loops.h"
 #include "base/platform/flush_denormals.h"
 #include "neural/cpu/adam_table.h"
 #include "neural/cpu/feature_store.h"
@@ -127,7 +127,8 @@ StepStatistics CpuBackend::run_network(const KernelPoints& points, const float* 
   chunk_statistics_.assign(chunks.count(), {});
   const std::uint64_t scratch_floats = table_.scratch_floats(encoder_, network_.packed().kernel());
 
-  tbb::parallel_for(0u, chunks.count(), [&](std::uint32_t chunk) {
+  for_each(chunks.count(), [&](std::size_t number) {
+    const auto chunk = static_cast<std::uint32_t>(number);
     const FlushDenormals flush;
     float* gradients = chunk_gradients_.data() + chunk * gradient_size;
     std::fill_n(gradients, gradient_size, 0.0f);
@@ -203,7 +204,8 @@ void CpuBackend::update_features(double scale, const TrainingBatch& batch, StepS
   const std::size_t bucket_nodes = std::size_t{1} << buckets_.shift;
   std::vector<std::uint64_t> touched(buckets_.count, 0), skipped(buckets_.count, 0);
 
-  tbb::parallel_for(0u, buckets_.count, [&](std::uint32_t bucket) {
+  for_each(buckets_.count, [&](std::size_t number) {
+    const auto bucket = static_cast<std::uint32_t>(number);
     if (references_.size(bucket) == 0 && !dense) return;
     const FlushDenormals flush;
     BucketScratch& mine = bucket_scratch_.local();
@@ -292,7 +294,7 @@ void CpuBackend::query(const QueryBatch& batch, const QueryOptions& options, std
   const KernelPoints points = kernel_points(*model_, batch);
   const std::uint64_t scratch_floats = table_.scratch_floats(encoder, network);
   constexpr std::size_t kChunk = 64 * kTile;
-  tbb::parallel_for(std::size_t{0}, (batch.size + kChunk - 1) / kChunk, [&](std::size_t chunk) {
+  for_each((batch.size + kChunk - 1) / kChunk, [&](std::size_t chunk) {
     const FlushDenormals flush;
     KernelQuery q = {};
     q.encoder = &encoder;

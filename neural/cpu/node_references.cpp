@@ -1,10 +1,9 @@
 #include "neural/cpu/node_references.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <bit>
 
+#include "base/parallel/loops.h"
 #include "base/platform/flush_denormals.h"
 
 namespace gatelight::neural::cpu {
@@ -46,7 +45,8 @@ void NodeReferences::sort(std::uint32_t nodes_per_level, std::uint32_t features,
   }
   starts_[buckets_.count] = total;
 
-  tbb::parallel_for(0u, chunks_.count(), [&](std::uint32_t chunk) {
+  for_each(chunks_.count(), [&](std::size_t number) {
+    const auto chunk = static_cast<std::uint32_t>(number);
     // As in the count, a denormal weight counts as zero.
     const FlushDenormals flush;
     std::uint32_t* const next = counts(chunk);

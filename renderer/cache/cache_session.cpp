@@ -9,6 +9,7 @@
 
 #include "base/clock.h"
 #include "base/errors.h"
+#include "base/parallel/schedule.h"
 #include "renderer/cache/cache_backend.h"
 #include "renderer/cache/cache_model.h"
 #include "renderer/cache/cache_query.h"
@@ -64,6 +65,7 @@ CacheSession::CacheSession(const World& world, const Camera& camera, const Pixel
   if (setup) {
     setup_ = *setup;
   } else {
+    const schedule::Section section("scout");
     Scouting scouting;
     scouting.add(world, camera, region, options, ranks_);
     ScoutReport report = scouting.report(world.scene, options);

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/clock.h"
+#include "base/parallel/schedule.h"
 #include "renderer/cache/cache_query.h"
 #include "renderer/cache/cache_session.h"
 #include "renderer/cache/record_exchange.h"
@@ -54,6 +55,7 @@ RecordRequest CacheSession::request(std::uint64_t step, std::uint64_t count,
 }
 
 void CacheSession::learn(const RecordBatch& group, std::uint64_t batch) {
+  const schedule::Section section("step");
   const Clock::time_point begin = Clock::now();
   trainer_->start(group.batch(batch));
   statistics_.train_step_seconds += seconds_since(begin);
@@ -87,6 +89,7 @@ void CacheSession::look_at_answers(const RecordBatch& group) {
 }
 
 void CacheSession::trace(std::uint64_t step, std::uint64_t count, std::uint64_t first_sample, Group& group) {
+  const schedule::Section section("trace");
   const Clock::time_point begin = Clock::now();
   const RayCounts before = records_->rays();
   group.request = request(step, count, first_sample);
@@ -152,6 +155,7 @@ void CacheSession::learn_from(Group& group, const Watch& watch) {
 }
 
 void CacheSession::train(std::uint64_t steps, const Watch& watch) {
+  const schedule::Section section("train");
   const Clock::time_point start = Clock::now();
   const double before = statistics_.train_seconds;
   const auto wanted = static_cast<int>(steps);

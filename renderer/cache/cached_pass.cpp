@@ -1,13 +1,12 @@
 #include "renderer/cache/cached_pass.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
 
 #include "base/clock.h"
 #include "base/finite_float.h"
+#include "base/parallel/loops.h"
 #include "neural/layout/mesh_colors.h"
 #include "renderer/settings/resolved_options.h"
 
@@ -38,16 +37,6 @@ float relative_error(const Color& answer, const Color& target, float scale) {
   const Eigen::Array3d t = target.cast<double>() * static_cast<double>(scale);
   const double y_luminance = static_cast<double>(luminance(answer)) * static_cast<double>(scale);
   return finite_float((y - t).square().mean() / (y_luminance * y_luminance + neural::kRelativeLossEpsilon));
-}
-
-template <typename Function>
-void for_each_tile(std::size_t count, Function function) {
-  tbb::parallel_for(
-      tbb::blocked_range<std::size_t>(0, count, 1),
-      [&](const tbb::blocked_range<std::size_t>& range) {
-        for (std::size_t t = range.begin(); t < range.end(); ++t) function(t);
-      },
-      tbb::simple_partitioner());
 }
 
 }  // namespace
@@ -87,7 +76,7 @@ void CachedPass::run(int samples, Film& film, const std::function<void(double)>&
       const auto count = static_cast<std::size_t>(std::min(together, grid.count() - first_tile));
       tiles_.resize(std::max(tiles_.size(), count));
       Clock::time_point start = Clock::now();
-      for_each_tile(count, [&](std::size_t t) {
+      for_each(count, [&](std::size_t t) {
         Tile& tile = tiles_[t];
         if (tile.paths.queries.inputs() != session_.inputs()) tile.paths = PathBatch(session_.inputs());
         grid.pixels(first_tile + static_cast<int>(t), tile.pixels);
@@ -104,7 +93,7 @@ void CachedPass::run(int samples, Film& film, const std::function<void(double)>&
         query_count += tiles_[t].paths.queries.size();
       }
       queries_.resize(query_count);
-      for_each_tile(count, [&](std::size_t t) {
+      for_each(count, [&](std::size_t t) {
         const SurfacePoints& points = tiles_[t].paths.queries;
         queries_.copy(points, 0, points.size(), tiles_[t].first_query);
       });
@@ -117,7 +106,7 @@ void CachedPass::run(int samples, Film& film, const std::function<void(double)>&
       statistics_.queries += query_count;
 
       start = Clock::now();
-      for_each_tile(count, [&](std::size_t t) {
+      for_each(count, [&](std::size_t t) {
         Tile& tile = tiles_[t];
         CachedWorker& worker = workers_.local();
         occlusion ? finish_occlusion(tile) : finish_paths(tile);

@@ -1,9 +1,8 @@
 #include "renderer/cache/occlusion_records.h"
 
-#include <tbb/parallel_for.h>
-
 #include <mutex>
 
+#include "base/parallel/loops.h"
 #include "renderer/cache/record_exchange.h"
 #include "renderer/transport/occlusion.h"
 
@@ -31,7 +30,7 @@ void OcclusionRecords::trace(const RecordRequest& request, RecordBatch& batch) {
   const auto times = static_cast<std::size_t>(options_.cache.samples_per_point);
   batch.paths.assign(batch.starts.blocks(), PathBatch(inputs_));
   std::mutex mutex;
-  tbb::parallel_for(std::size_t{0}, batch.paths.size(), [&](std::size_t b) {
+  for_each(batch.paths.size(), [&](std::size_t b) {
     if (!batch.mine(b)) return;
     SurfacePoints& records = batch.paths[b].records;
     std::vector<float>& targets = batch.paths[b].targets;

@@ -1,9 +1,8 @@
 #include "renderer/cache/radiance_records.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 
+#include "base/parallel/loops.h"
 #include "renderer/cache/record_exchange.h"
 #include "renderer/settings/resolved_options.h"
 
@@ -64,7 +63,7 @@ void RadianceRecords::trace(const RecordRequest& request, RecordBatch& batch) {
   plan.contribution_threshold = request.contribution_threshold;
   while (batch.paths.size() < batch.starts.blocks()) batch.paths.emplace_back(inputs_);
   batch.paths.resize(batch.starts.blocks());
-  tbb::parallel_for(std::size_t{0}, batch.paths.size(), [&](std::size_t b) {
+  for_each(batch.paths.size(), [&](std::size_t b) {
     if (!batch.mine(b)) return batch.paths[b].begin(0);
     Worker& worker = workers_.local();
     const std::size_t begin = batch.starts.offsets[b];
@@ -84,7 +83,7 @@ void RadianceRecords::finish(const AnswerPoints& answer, RecordBatch& batch) {
   batch.queries = SurfacePoints(inputs_);
   batch.queries.resize(query_offsets.back());
   batch.answers.resize(3 * query_offsets.back());
-  tbb::parallel_for(std::size_t{0}, batch.paths.size(), [&](std::size_t b) {
+  for_each(batch.paths.size(), [&](std::size_t b) {
     batch.queries.copy(batch.paths[b].queries, 0, batch.paths[b].queries.size(), query_offsets[b]);
   });
   if (!batch.answers.empty()) {
@@ -96,7 +95,7 @@ void RadianceRecords::finish(const AnswerPoints& answer, RecordBatch& batch) {
   }
   const bool samples = !batch.starts.samples.empty();
   batch.radiance.resize(batch.starts.samples.size());
-  tbb::parallel_for(std::size_t{0}, batch.paths.size(), [&](std::size_t b) {
+  for_each(batch.paths.size(), [&](std::size_t b) {
     const std::size_t begin = 3 * query_offsets[b];
     const std::span<const float> answers =
         std::span<const float>(batch.answers).subspan(begin, 3 * query_offsets[b + 1] - begin);
@@ -120,10 +119,10 @@ void RadianceRecords::end_samples(const AnswerPoints& answer, RecordBatch& batch
       offsets_of(batch.paths, [](const PathBatch& p) { return p.count_ends(); });
   batch.queries.resize(offsets.back());
   batch.answers.resize(3 * offsets.back());
-  tbb::parallel_for(std::size_t{0}, batch.paths.size(),
+  for_each(batch.paths.size(),
                     [&](std::size_t b) { batch.paths[b].copy_ends(batch.queries, offsets[b]); });
   if (!batch.answers.empty()) answer(batch.queries, batch.answers);
-  tbb::parallel_for(std::size_t{0}, batch.paths.size(), [&](std::size_t b) {
+  for_each(batch.paths.size(), [&](std::size_t b) {
     batch.paths[b].end_samples(std::span<const float>(batch.answers).subspan(3 * offsets[b]),
                                std::span(batch.radiance).subspan(batch.starts.offsets[b]));
   });

@@ -1,16 +1,17 @@
 #include "renderer/cache/record_batch.h"
 
 #include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_for.h>
 
 #include <cassert>
+
+#include "base/parallel/loops.h"
 
 namespace gatelight::renderer {
 
 void RecordBatch::add_to(Film& film, const RenderOptions& options, const RankTiles* ranks,
                          SampleCounts& counts) const {
   tbb::enumerable_thread_specific<SampleCounts> parts;
-  tbb::parallel_for(std::size_t{0}, radiance.empty() ? 0 : starts.blocks(), [&](std::size_t b) {
+  for_each(radiance.empty() ? 0 : starts.blocks(), [&](std::size_t b) {
     std::vector<PixelSample> samples;
     std::vector<SampleResult> results;
     std::vector<FirstHit> hits;
@@ -36,7 +37,7 @@ void RecordBatch::split(const RecordRequest& request, const PointInputs& inputs,
   if (records.inputs() != inputs) records = SurfacePoints(inputs);
   records.resize(batch_split.kept());
   targets.resize(outputs * batch_split.kept());
-  tbb::parallel_for(std::size_t{0}, paths.size(), [&](std::size_t b) {
+  for_each(paths.size(), [&](std::size_t b) {
     for (std::size_t i = 0; i < paths[b].records.size(); ++i) {
       const std::size_t record = offsets[b] + i;
       if (!batch_split.keeps(record)) continue;

@@ -1,14 +1,13 @@
 #include "renderer/cache/scene_layout.h"
 
+#include "base/parallel/loops.h"
 #include "renderer/cache/surface_points.h"
-
-#include <tbb/parallel_for.h>
 
 namespace gatelight::renderer {
 
 WeldedMeshes::WeldedMeshes(const scene::Scene& scene)
     : positions_(scene.meshes.size()), triangles_(scene.meshes.size()) {
-  tbb::parallel_for(std::size_t{0}, scene.meshes.size(), [&](std::size_t i) {
+  for_each(scene.meshes.size(), [&](std::size_t i) {
     const scene::Mesh& mesh = scene.meshes[i];
     positions_[i].reserve(mesh.positions.size());
     for (const Vec3& p : mesh.positions) positions_[i].push_back({p.x(), p.y(), p.z()});

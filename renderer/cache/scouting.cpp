@@ -1,11 +1,10 @@
 #include "renderer/cache/scouting.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
+#include "base/parallel/loops.h"
 #include "renderer/cache/node_spacing.h"
 #include "renderer/cache/radiance_records.h"
 #include "renderer/cache/record_exchange.h"
@@ -44,7 +43,7 @@ constexpr float kOcclusionSpacing = 0.015f;
 /// The area of each instance in square metres.
 std::vector<double> areas_of(const scene::Scene& scene) {
   std::vector<double> areas(scene.instances.size(), 0.0);
-  tbb::parallel_for(std::size_t{0}, areas.size(), [&](std::size_t i) {
+  for_each(areas.size(), [&](std::size_t i) {
     const scene::Instance& instance = scene.instances[i];
     const std::size_t triangles = scene.mesh_of(instance).triangles.size();
     for (std::size_t t = 0; t < triangles; ++t) {

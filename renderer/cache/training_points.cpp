@@ -7,6 +7,7 @@
 #include <atomic>
 #include <cmath>
 
+#include "base/parallel/loops.h"
 #include "neural/learning/training_counts.h"
 #include "renderer/cache/scene_layout.h"
 #include "renderer/film/film_samples.h"
@@ -16,6 +17,9 @@
 
 namespace gatelight::renderer {
 namespace {
+
+/// Starts of a block.
+constexpr std::size_t kBlock = kTile * kTile;
 
 // Sampler dimensions of a start, beyond those of its path.
 constexpr std::uint32_t kSurfaceChoice = 0xffff0000u;
@@ -101,9 +105,11 @@ void TrainingPoints::from_picture(std::uint64_t step, std::uint64_t first, std::
     PixelSample place;
   };
   std::vector<KeyedPlace> places(count);
-  tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
-    const PixelSample place = order_.at(first + i);
-    places[i] = {morton(place.pixel), place};
+  for_each_range(count, kBlock, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const PixelSample place = order_.at(first + i);
+      places[i] = {morton(place.pixel), place};
+    }
   });
   tbb::parallel_sort(places.begin(), places.end(), [](const KeyedPlace& a, const KeyedPlace& b) {
     return std::pair(a.morton, a.place.number) < std::pair(b.morton, b.place.number);
@@ -111,7 +117,6 @@ void TrainingPoints::from_picture(std::uint64_t step, std::uint64_t first, std::
   result.starts.resize(count);
   result.samples.resize(count);
   // Samples of one pixel stay in one block: they are added to the film in order.
-  constexpr std::size_t kBlock = kTile * kTile;
   result.offsets.assign(1, 0);
   for (std::size_t end = 0; end < count;) {
     end = std::min(end + kBlock, count);
@@ -119,10 +124,12 @@ void TrainingPoints::from_picture(std::uint64_t step, std::uint64_t first, std::
     result.offsets.push_back(end);
   }
   const std::uint32_t seed = step_seed(options_, step);
-  tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
-    result.samples[i] = places[i].place;
-    result.starts[i] = {make_camera_sample(places[i].place, options_, camera_, filter_),
-                        runs_to_its_end(i, options_.cache.self_training.full_fraction, seed)};
+  for_each_range(count, kBlock, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      result.samples[i] = places[i].place;
+      result.starts[i] = {make_camera_sample(places[i].place, options_, camera_, filter_),
+                          runs_to_its_end(i, options_.cache.self_training.full_fraction, seed)};
+    }
   });
 }
 
@@ -143,7 +150,7 @@ void TrainingPoints::from_camera(std::uint64_t step, std::size_t count, Training
   }
   result.starts.resize(result.offsets.back());
   const std::uint32_t seed = step_seed(options_, step);
-  tbb::parallel_for(std::size_t{0}, cells.size(), [&](std::size_t t) {
+  for_each(cells.size(), [&](std::size_t t) {
     for (std::size_t i = 0; i < cells[t].size(); ++i) {
       const std::size_t index = result.offsets[t] + i;
       PathStart& start = result.starts[index];
@@ -164,7 +171,6 @@ void TrainingPoints::from_surfaces(std::uint64_t step, std::size_t count, Traini
   result.starts.resize(count);
   result.hits.resize(count);
   result.offsets.assign(1, 0);
-  constexpr std::size_t kBlock = kTile * kTile;
   for (std::size_t begin = 0; begin < count; begin += kBlock)
     result.offsets.push_back(std::min(begin + kBlock, count));
   const std::uint32_t seed = step_seed(options_, step);
@@ -198,7 +204,7 @@ void TrainingPoints::trace(TrainingStarts& result, const std::function<bool(std:
                            RayCounts& rays) const {
   result.hits.assign(result.starts.size(), {});
   std::atomic<std::uint64_t> traced_rays = 0;
-  tbb::parallel_for(std::size_t{0}, result.blocks(), [&](std::size_t block) {
+  for_each(result.blocks(), [&](std::size_t block) {
     if (!wanted(block)) return;
     const std::size_t begin = result.offsets[block];
     const std::size_t size = result.offsets[block + 1] - begin;

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "base/errors.h"
+#include "base/parallel/schedule.h"
 
 namespace gatelight::renderer {
 namespace {
@@ -65,6 +66,7 @@ class RayTracingFilter {
 
   /// False where the progress cancelled it.
   bool execute(Progress progress) {
+    const schedule::Section section("oidn");
     api_.SetFilterProgressMonitorFunction(filter_.get(), monitor, &progress);
     api_.CommitFilter(filter_.get());
     check();

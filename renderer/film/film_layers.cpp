@@ -1,8 +1,5 @@
 // The layers of a film, computed from its sums.
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -12,6 +9,8 @@
 #include "renderer/settings/enum_names.h"
 #include "renderer/settings/light_group_options.h"
 
+#include "base/parallel/loops.h"
+
 namespace gatelight::renderer {
 namespace {
 
@@ -20,13 +19,12 @@ template <class Range, class Value>
 void fill(Layer& layer, const Range& all, Value value) {
   const std::size_t channels = layer.channels.size();
   layer.values.resize((all.end - all.begin) * channels);
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(all.begin, all.end, 4096),
-                    [&](const tbb::blocked_range<std::size_t>& range) {
-                      for (std::size_t p = range.begin(); p < range.end(); ++p) {
-                        for (std::size_t i = 0; i < channels; ++i)
-                          layer.values[(p - all.begin) * channels + i] = finite_float(value(p, i));
-                      }
-                    });
+  for_each_range(all.end - all.begin, 4096, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t p = begin; p < end; ++p) {
+      for (std::size_t i = 0; i < channels; ++i)
+        layer.values[p * channels + i] = finite_float(value(all.begin + p, i));
+    }
+  });
 }
 
 /// The mean of `count` values with this sum, or 0.

@@ -1,11 +1,10 @@
 #include "renderer/film/scale_down.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 
+#include "base/parallel/loops.h"
 #include "renderer/film/pixel_filter.h"
 #include "renderer/settings/resolved_options.h"
 
@@ -48,7 +47,8 @@ std::vector<float> ScaleDown::scale(std::span<const float> values, int channels,
     for (int i = std::max(-first, 0); i < static_cast<int>(weights_.size()) && first + i < limit; ++i)
       add(first + i, weights_[size(i)] / sum);
   };
-  tbb::parallel_for(begin, end, [&](int y) {
+  for_each(size(end - begin), [&](std::size_t line) {
+    const int y = begin + static_cast<int>(line);
     std::vector<float> sums(row);
     gather(y, height, [&](int from, float weight) {
       assert(from >= top && size(from - top + 1) * row <= values.size());

@@ -1,8 +1,8 @@
 #include "renderer/image/box_filter.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
+
+#include "base/parallel/loops.h"
 
 namespace gatelight::renderer {
 namespace {
@@ -22,11 +22,13 @@ void box_line(const float* from, float* to, std::size_t step, int count, int rad
 void box_filter(std::vector<float>& plane, int width, int height, int radius) {
   std::vector<float> rows(plane.size());
   const auto w = static_cast<std::size_t>(width);
-  tbb::parallel_for(0, height, [&](int y) {
+  for_each(static_cast<std::size_t>(height), [&](std::size_t line) {
+    const auto y = static_cast<int>(line);
     const std::size_t at = static_cast<std::size_t>(y) * w;
     box_line(&plane[at], &rows[at], 1, width, radius);
   });
-  tbb::parallel_for(0, height, [&](int y) {
+  for_each(static_cast<std::size_t>(height), [&](std::size_t line) {
+    const auto y = static_cast<int>(line);
     const int first = std::max(y - radius, 0), end = std::min(y + radius + 1, height);
     float* const to = &plane[static_cast<std::size_t>(y) * w];
     std::fill(to, to + width, 0.0f);

@@ -1,12 +1,11 @@
 #include "renderer/metrics/estimated_error.h"
 
-#include <tbb/parallel_for.h>
-
 #include <cassert>
 #include <cmath>
 #include <numeric>
 #include <vector>
 
+#include "base/parallel/loops.h"
 #include "renderer/image/box_filter.h"
 #include "renderer/metrics/compare.h"
 
@@ -22,7 +21,7 @@ double estimated_error(const Picture& picture, const Layer& values, const Layer&
     std::vector<float> usual(width * height);
     for (std::size_t p = 0; p < usual.size(); ++p) usual[p] = values.values[p * channels + c];
     box_filter(usual, picture.width, picture.height, smoothing);
-    tbb::parallel_for(std::size_t{0}, height, [&](std::size_t y) {
+    for_each(height, [&](std::size_t y) {
       for (std::size_t p = y * width; p < (y + 1) * width; ++p) {
         const double value = usual[p], error = errors.values[p * channels + c];
         sums[y] += error * error / (value * value + kRelMseEpsilon);

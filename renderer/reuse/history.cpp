@@ -1,13 +1,12 @@
 #include "renderer/reuse/history.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
 #include <utility>
 
+#include "base/parallel/loops.h"
 #include "renderer/image/box_filter.h"
 
 namespace gatelight::renderer {
@@ -103,8 +102,8 @@ class Carrier {
  private:
   template <class Function>
   void for_each_pixel(const Function& function) const {
-    tbb::parallel_for(0, rect_.height(), [&](int row) {
-      const std::size_t first = static_cast<std::size_t>(row) * static_cast<std::size_t>(rect_.width());
+    for_each(static_cast<std::size_t>(rect_.height()), [&](std::size_t row) {
+      const std::size_t first = row * static_cast<std::size_t>(rect_.width());
       for (int x = 0; x < rect_.width(); ++x) function(first + static_cast<std::size_t>(x));
     });
   }

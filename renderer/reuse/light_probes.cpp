@@ -1,13 +1,11 @@
 #include "renderer/reuse/light_probes.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <span>
 
+#include "base/parallel/loops.h"
 #include "renderer/sampling/warp.h"
 #include "renderer/transport/scattering.h"
 
@@ -106,15 +104,10 @@ class Prober {
 
 std::vector<float> probe_light(const World& world, const std::vector<VisiblePoint>& points) {
   std::vector<float> light(points.size(), 0.0f);
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, (points.size() + kBlock - 1) / kBlock),
-                    [&](const tbb::blocked_range<std::size_t>& blocks) {
-                      Prober prober(world);
-                      for (std::size_t b = blocks.begin(); b < blocks.end(); ++b) {
-                        const std::size_t begin = b * kBlock, count = std::min(kBlock, points.size() - begin);
-                        prober.probe(std::span(points).subspan(begin, count),
-                                     std::span(light).subspan(begin, count));
-                      }
-                    });
+  for_each_range(points.size(), kBlock, [&](std::size_t begin, std::size_t end) {
+    Prober(world).probe(std::span(points).subspan(begin, end - begin),
+                        std::span(light).subspan(begin, end - begin));
+  });
   return light;
 }
 

@@ -1,10 +1,9 @@
 #include "renderer/reuse/visible_points.h"
 
-#include <tbb/parallel_for.h>
-
 #include <array>
 #include <cmath>
 
+#include "base/parallel/loops.h"
 #include "renderer/film/tiles.h"
 #include "renderer/transport/guide_surface.h"
 
@@ -147,9 +146,9 @@ VisiblePoints trace_visible_points(const World& world, const Camera& camera, con
   if (earlier) points.earlier.resize(pixels);
   Tracer tracer(world, earlier, points);
   const TileGrid tiles(rect);
-  tbb::parallel_for(0, tiles.count(), [&](int tile) {
+  for_each(static_cast<std::size_t>(tiles.count()), [&](std::size_t tile) {
     std::vector<Pixel> of_tile;
-    tiles.pixels(tile, of_tile);
+    tiles.pixels(static_cast<int>(tile), of_tile);
     std::vector<Walker> walkers;
     for (const Pixel& p : of_tile) {
       const CameraRay from = camera.ray(static_cast<float>(p.x) + 0.5f, static_cast<float>(p.y) + 0.5f);

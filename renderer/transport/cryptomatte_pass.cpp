@@ -1,12 +1,12 @@
 #include "renderer/transport/cryptomatte_pass.h"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <string>
 #include <vector>
 
+#include "base/parallel/loops.h"
 #include "renderer/film/film_samples.h"
 #include "renderer/film/tiles.h"
 
@@ -68,9 +68,9 @@ Cryptomattes trace_cryptomattes(const World& world, const Camera& camera, const 
   }
   if (kinds.empty()) return mattes;
   const TileGrid tiles(rect);
-  tbb::parallel_for(0, tiles.count(), [&](int tile) {
+  for_each(static_cast<std::size_t>(tiles.count()), [&](std::size_t tile) {
     std::vector<Pixel> pixels;
-    tiles.pixels(tile, pixels);
+    tiles.pixels(static_cast<int>(tile), pixels);
     std::vector<Ray> rays(kCryptomattePoints);
     std::vector<Hit> hits(kCryptomattePoints);
     std::vector<std::uint32_t> ids;

@@ -1,9 +1,8 @@
 #include "renderer/transport/shadow_catcher.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 
+#include "base/parallel/loops.h"
 #include "renderer/film/film_samples.h"
 #include "renderer/film/tiles.h"
 #include "renderer/sampling/warp.h"
@@ -89,9 +88,9 @@ std::vector<float> catch_shadows(const World& world, const Camera& camera, const
   const TileGrid tiles(rect);
   RenderOptions own = options;
   own.seed = hash(options.seed ^ hash(0x73686164u));
-  tbb::parallel_for(0, tiles.count(), [&](int tile) {
+  for_each(static_cast<std::size_t>(tiles.count()), [&](std::size_t tile) {
     std::vector<Pixel> pixels;
-    tiles.pixels(tile, pixels);
+    tiles.pixels(static_cast<int>(tile), pixels);
     std::vector<Sums> sums(pixels.size());
     std::vector<CameraSample> starts(pixels.size());
     std::vector<Ray> rays(pixels.size());
