@@ -4,11 +4,13 @@
 #include <tbb/enumerable_thread_specific.h>
 
 #include <algorithm>
+#include <atomic>
 #include <limits>
 
 #include "base/clock.h"
 #include "base/errors.h"
 #include "base/parallel/loops.h"
+#include "base/parallel/team.h"
 #include "base/platform/flush_denormals.h"
 #include "neural/cpu/adam_table.h"
 #include "neural/cpu/feature_store.h"
@@ -22,8 +24,9 @@ namespace gatelight::neural::cpu {
 
 namespace {
 
-// A thread's memory for one bucket of nodes.
+// A thread's memory for one bucket of nodes. All but the references is zero between buckets.
 struct BucketScratch {
+  HugeBuffer<KernelReference> references;
   HugeBuffer<float> sums;
   HugeBuffer<std::uint64_t> touched;
   HugeBuffer<std::uint32_t> touched_list, steps;
@@ -40,8 +43,7 @@ class CpuBackend final : public Backend {
         encoder_(kernel_encoder(*model_)),
         features_(*model_, options_),
         network_(*model_, options_),
-        adam_table_(adam_table(options_)),
-        buckets_(make_buckets(layout_.node_count)) {
+        adam_table_(adam_table(options_)) {
     if (options_.counts_triangles()) {
       triangle_steps_.assign(model_->gate.triangle_count, 0);
       triangle_stamps_.assign(triangle_steps_.size(), 0);
@@ -49,6 +51,8 @@ class CpuBackend final : public Backend {
   }
 
   StepStatistics train(const TrainingBatch& batch) override;
+  StepStatistics train(const TrainingBatch& batch, Team& team) override;
+  bool answers_threads() const override { return true; }
   void query(const QueryBatch& batch, const QueryOptions& options, std::span<float> out) const override;
   ModelState export_state() const override;
   void import_state(const ModelState& state) override;
@@ -67,8 +71,13 @@ class CpuBackend final : public Backend {
  private:
   void start_output_at_mean(const TrainingBatch& batch);
   StepStatistics run_network(const KernelPoints& points, const float* targets, const float* inputs,
-                             std::uint32_t records, bool references);
-  void update_features(double scale, const TrainingBatch& batch, StepStatistics& statistics);
+                             std::uint32_t records, bool references, Team& team);
+  struct UpdateCounts {
+    std::uint64_t touched = 0, skipped = 0;
+  };
+  void update(float scale, std::uint32_t chunks, const TrainingBatch& batch, Team& team,
+              StepStatistics& statistics);
+  void update_bucket(std::uint32_t bucket, float scale, const std::uint32_t* record_steps, UpdateCounts& counts);
   std::vector<std::uint32_t> count_triangles(const TrainingBatch& batch);
   float* scratch(std::uint64_t floats) const;
 
@@ -89,10 +98,9 @@ class CpuBackend final : public Backend {
   Buckets buckets_;
   NodeReferences references_;
   HugeBuffer<float> feature_gradients_;
-  HugeBuffer<float> chunk_gradients_;
+  HugeBuffer<float> chunk_gradients_;  // [chunk][packed layout]
   std::vector<std::uint8_t> accepted_;
   std::vector<KernelChunkStatistics> chunk_statistics_;
-  std::vector<float> packed_gradient_;
   mutable tbb::enumerable_thread_specific<HugeBuffer<float>> scratch_;
   tbb::enumerable_thread_specific<BucketScratch> bucket_scratch_;
 };
@@ -109,9 +117,11 @@ void CpuBackend::start_output_at_mean(const TrainingBatch& batch) {
   if (!means.empty()) network_.set_output_biases(means);
 }
 
+// Encode, forward, loss and backward of all chunks. `references`: the encoding takes part, and its references
+// are sorted.
 StepStatistics CpuBackend::run_network(const KernelPoints& points, const float* targets, const float* inputs,
-                                       std::uint32_t records, bool references) {
-  const Chunks chunks{records};
+                                       std::uint32_t records, bool references, Team& team) {
+  const Chunks chunks(records);
   KernelEncoder encoder = encoder_;
   features_.set_training_view(encoder);
   if (!references) {
@@ -119,26 +129,25 @@ StepStatistics CpuBackend::run_network(const KernelPoints& points, const float* 
     encoder.levels = 0;
     encoder.auxiliary_count = 0;
   }
-  references_.start(chunks, buckets_, encoder.levels * encoder.nodes_per_level);
+  const std::uint32_t slots = encoder.levels * encoder.nodes_per_level;
+  buckets_ = make_buckets(layout_.node_count, chunks.tiles_of_chunk * kTile * slots);
+  references_.start(chunks, buckets_, slots);
   reserve(feature_gradients_, std::size_t{records} * layout_.feature_inputs);
-  const std::uint64_t gradient_size = network_.packed().gradient_size();
-  reserve(chunk_gradients_, chunks.count() * gradient_size);
+  reserve(chunk_gradients_, chunks.count * network_.size());
   if (!triangle_steps_.empty()) accepted_.resize(records);
-  chunk_statistics_.assign(chunks.count(), {});
-  const std::uint64_t scratch_floats = table_.scratch_floats(encoder_, network_.packed().kernel());
+  chunk_statistics_.resize(chunks.count);
+  const std::uint64_t scratch_floats = table_.scratch_floats(encoder_, network_.kernel());
 
-  for_each(chunks.count(), [&](std::size_t number) {
-    const auto chunk = static_cast<std::uint32_t>(number);
+  team.for_each(chunks.count, [&](std::uint32_t begin, std::uint32_t end) {
     const FlushDenormals flush;
-    float* gradients = chunk_gradients_.data() + chunk * gradient_size;
-    std::fill_n(gradients, gradient_size, 0.0f);
     KernelTraining t = {};
     t.encoder = &encoder;
-    t.network = &network_.packed().kernel();
+    t.network = &network_.kernel();
     t.points = points;
     t.targets = targets;
-    t.begin = chunks.begin(chunk);
-    t.end = chunks.end(chunk);
+    t.begin = chunks.begin(begin);
+    t.end = chunks.end(end - 1);
+    t.chunk_tiles = chunks.tiles_of_chunk;
     t.relative_loss = options_.loss == Loss::relative_l2 ? 1 : 0;
     t.max_target = options_.max_target;
     t.scratch = scratch(scratch_floats);
@@ -146,12 +155,13 @@ StepStatistics CpuBackend::run_network(const KernelPoints& points, const float* 
     t.nodes = references_.nodes();
     t.weights = references_.weights();
     t.feature_gradients = feature_gradients_.data();
-    t.bucket_counts = references_.counts(chunk);
-    t.bucket_shift = buckets_.shift;
     t.accepted = triangle_steps_.empty() ? nullptr : accepted_.data();
-    t.gradients = gradients;
-    t.statistics = &chunk_statistics_[chunk];
+    t.gradients = chunk_gradients_.data() + begin * network_.size();
+    t.gradient_size = network_.size();
+    t.statistics = &chunk_statistics_[begin];
     table_.train(t);
+    for (std::uint32_t chunk = begin; chunk < end && references; ++chunk)
+      references_.sort(chunk, encoder.nodes_per_level, layout_.features, layout_.feature_inputs);
   });
 
   StepStatistics statistics;
@@ -165,13 +175,6 @@ StepStatistics CpuBackend::run_network(const KernelPoints& points, const float* 
   }
   if (statistics.records > 0)
     statistics.loss = loss / (static_cast<double>(statistics.records) * model_->config.mlp.outputs);
-
-  // Gradients are summed in the order of the chunks.
-  packed_gradient_.assign(gradient_size, 0.0f);
-  for (std::uint32_t chunk = 0; chunk < chunks.count(); ++chunk) {
-    const float* g = chunk_gradients_.data() + chunk * gradient_size;
-    for (std::uint64_t i = 0; i < gradient_size; ++i) packed_gradient_[i] += g[i];
-  }
   return statistics;
 }
 
@@ -195,58 +198,83 @@ std::vector<std::uint32_t> CpuBackend::count_triangles(const TrainingBatch& batc
   return record_steps;
 }
 
-void CpuBackend::update_features(double scale, const TrainingBatch& batch, StepStatistics& statistics) {
+// Sums the references of a bucket and updates its nodes.
+void CpuBackend::update_bucket(std::uint32_t bucket, float scale, const std::uint32_t* record_steps,
+                               UpdateCounts& counts) {
+  const bool dense = options_.update == FeatureUpdate::dense;
+  const std::uint32_t size = references_.size(bucket);
+  if (size == 0 && !dense) return;
+  BucketScratch& mine = bucket_scratch_.local();
+  const std::size_t bucket_nodes = std::size_t{1} << buckets_.shift;
+  reserve(mine.references, size);
+  reserve(mine.sums, bucket_nodes * layout_.features);
+  reserve(mine.touched, bucket_nodes / 64 + 1);
+  reserve(mine.touched_list, bucket_nodes);
+  reserve(mine.steps, bucket_nodes);
+  references_.copy(bucket, mine.references.data());
+  KernelFeatureUpdate u = {};
+  u.references = mine.references.data();
+  u.reference_count = size;
+  u.first_node = buckets_.first(bucket);
+  u.node_count = buckets_.size(bucket);
+  u.features = layout_.features;
+  u.feature_inputs = layout_.feature_inputs;
+  u.feature_gradients = feature_gradients_.data();
+  u.record_steps = record_steps;
+  u.dense = dense ? 1 : 0;
+  u.adam = {options_.adam.beta1, options_.adam.beta2, scale};
+  u.steps = adam_table_.data();
+  u.step_count = kAdamTableSteps;
+  u.late_step = [](const void* context, std::uint64_t t) {
+    return adam_step(*static_cast<const TrainingOptions*>(context), t);
+  };
+  u.late_context = &options_;
+  u.dense_step = adam_step(options_, steps_);
+  features_.set_update_view(u);
+  u.sums = mine.sums.data();
+  u.touched = mine.touched.data();
+  u.touched_list = mine.touched_list.data();
+  u.step_scratch = mine.steps.data();
+  u.touched_count = &counts.touched;
+  u.skipped_count = &counts.skipped;
+  table_.update_features(u);
+}
+
+// Updates the network and the features, in one loop.
+void CpuBackend::update(float scale, std::uint32_t chunks, const TrainingBatch& batch, Team& team,
+                        StepStatistics& statistics) {
+  constexpr std::uint32_t kSlice = 256;  // parameters of the network
+  const bool per_triangle =
+      options_.feature_step == FeatureStep::per_triangle && options_.update != FeatureUpdate::dense;
   std::vector<std::uint32_t> record_steps;
   if (!triangle_steps_.empty()) record_steps = count_triangles(batch);
-  if (buckets_.count == 0) return;
-  const bool dense = options_.update == FeatureUpdate::dense;
-  const bool per_triangle = options_.feature_step == FeatureStep::per_triangle && !dense;
-  const std::size_t bucket_nodes = std::size_t{1} << buckets_.shift;
-  std::vector<std::uint64_t> touched(buckets_.count, 0), skipped(buckets_.count, 0);
-
-  for_each(buckets_.count, [&](std::size_t number) {
-    const auto bucket = static_cast<std::uint32_t>(number);
-    if (references_.size(bucket) == 0 && !dense) return;
+  const KernelAdamStep network_step = adam_step(options_, steps_);
+  const auto slices = static_cast<std::uint32_t>((network_.size() + kSlice - 1) / kSlice);
+  std::atomic<std::uint64_t> touched = 0, skipped = 0;
+  team.for_each(slices + buckets_.count, [&](std::uint32_t begin, std::uint32_t end) {
     const FlushDenormals flush;
-    BucketScratch& mine = bucket_scratch_.local();
-    if (mine.sums.empty())
-      mine = {HugeBuffer<float>(bucket_nodes * layout_.features),
-              HugeBuffer<std::uint64_t>(bucket_nodes / 64 + 1), HugeBuffer<std::uint32_t>(bucket_nodes),
-              HugeBuffer<std::uint32_t>(bucket_nodes)};
-    KernelFeatureUpdate u = {};
-    u.references = references_.begin(bucket);
-    u.reference_count = references_.size(bucket);
-    u.first_node = buckets_.first(bucket);
-    u.node_count = buckets_.size(bucket);
-    u.features = layout_.features;
-    u.feature_inputs = layout_.feature_inputs;
-    u.feature_gradients = feature_gradients_.data();
-    u.record_steps = per_triangle ? record_steps.data() : nullptr;
-    u.dense = dense ? 1 : 0;
-    u.adam = {options_.adam.beta1, options_.adam.beta2, static_cast<float>(scale)};
-    u.steps = adam_table_.data();
-    u.step_count = kAdamTableSteps;
-    u.late_step = [](const void* context, std::uint64_t t) {
-      return adam_step(*static_cast<const TrainingOptions*>(context), t);
-    };
-    u.late_context = &options_;
-    u.dense_step = adam_step(options_, steps_);
-    features_.set_update_view(u);
-    u.sums = mine.sums.data();
-    u.touched = mine.touched.data();
-    u.touched_list = mine.touched_list.data();
-    u.step_scratch = mine.steps.data();
-    u.touched_count = &touched[bucket];
-    u.skipped_count = &skipped[bucket];
-    table_.update_features(u);
+    UpdateCounts counts;
+    if (begin < slices)
+      counts.skipped += network_.update(std::uint64_t{begin} * kSlice,
+                                        std::min(std::uint64_t{std::min(end, slices)} * kSlice, network_.size()),
+                                        chunk_gradients_.data(), chunks, scale, network_step);
+    for (std::uint32_t i = std::max(begin, slices); i < end; ++i)
+      update_bucket(i - slices, scale, per_triangle ? record_steps.data() : nullptr, counts);
+    touched += counts.touched;
+    skipped += counts.skipped;
   });
-  for (std::uint32_t b = 0; b < buckets_.count; ++b) {
-    statistics.touched_nodes += touched[b];
-    statistics.skipped_updates += skipped[b];
-  }
+  network_.updated();
+  statistics.touched_nodes = touched;
+  statistics.skipped_updates = skipped;
 }
 
 StepStatistics CpuBackend::train(const TrainingBatch& batch) {
+  StepStatistics statistics;
+  Team::run([&](Team& team) { statistics = train(batch, team); }, 0, [](std::size_t) {});
+  return statistics;
+}
+
+StepStatistics CpuBackend::train(const TrainingBatch& batch, Team& team) {
   check_batch(*model_, batch);
   const FlushDenormals flush;
   // References and offsets of gradients have 32 bits.
@@ -257,19 +285,16 @@ StepStatistics CpuBackend::train(const TrainingBatch& batch) {
   const Clock::time_point start = Clock::now();
   if (steps_ == 0 && layout_.biases && options_.start_at_mean) start_output_at_mean(batch);
 
-  StepStatistics statistics = run_network(kernel_points(*model_, batch.points), batch.targets.data(), nullptr,
-                                          static_cast<std::uint32_t>(batch.points.size), true);
+  const auto records = static_cast<std::uint32_t>(batch.points.size);
+  StepStatistics statistics =
+      run_network(kernel_points(*model_, batch.points), batch.targets.data(), nullptr, records, true, team);
   statistics.seconds_network = seconds_since(start);
   if (statistics.records > 0) {
     ++steps_;
     const double scale = 1.0 / (static_cast<double>(statistics.records) * model_->config.mlp.outputs);
-    Clock::time_point phase = Clock::now();
-    references_.sort(encoder_.nodes_per_level, layout_.features, layout_.feature_inputs);
-    statistics.seconds_sort = seconds_since(phase);
-    phase = Clock::now();
-    statistics.skipped_updates += network_.update(packed_gradient_.data(), static_cast<float>(scale), steps_);
-    update_features(scale, batch, statistics);
-    statistics.seconds_update = seconds_since(phase);
+    const Clock::time_point updating = Clock::now();
+    update(static_cast<float>(scale), Chunks(records).count, batch, team, statistics);
+    statistics.seconds_update = seconds_since(updating);
   }
   statistics.seconds = seconds_since(start);
   return statistics;
@@ -277,12 +302,16 @@ StepStatistics CpuBackend::train(const TrainingBatch& batch) {
 
 NetworkPass CpuBackend::network_pass(std::span<const float> inputs, std::span<const float> targets) {
   const std::size_t records = targets.size() / model_->config.mlp.outputs;
-  if (inputs.size() != records * network_.packed().kernel().input_stride)
+  if (inputs.size() != records * network_.kernel().input_stride)
     throw BadConfiguration(fmt::format("inputs: {} floats, expected {} rows of {}", inputs.size(), records,
-                                       network_.packed().kernel().input_stride));
+                                       network_.kernel().input_stride));
   const Clock::time_point start = Clock::now();
-  const StepStatistics statistics =
-      run_network({}, targets.data(), inputs.data(), static_cast<std::uint32_t>(records), false);
+  StepStatistics statistics;
+  Team::run(
+      [&](Team& team) {
+        statistics = run_network({}, targets.data(), inputs.data(), static_cast<std::uint32_t>(records), false, team);
+      },
+      0, [](std::size_t) {});
   return {statistics.loss, seconds_since(start)};
 }
 
@@ -290,19 +319,20 @@ void CpuBackend::query(const QueryBatch& batch, const QueryOptions& options, std
   check_batch(*model_, batch, out);
   KernelEncoder encoder = encoder_;
   features_.set_query_view(encoder, options.averaged);
-  const KernelNetwork& network = network_.query_kernel(options.averaged);
+  const bool bf16 = options.precision == QueryPrecision::bf16;
+  const KernelNetwork& network = network_.query_kernel(options.averaged, bf16);
   const KernelPoints points = kernel_points(*model_, batch);
   const std::uint64_t scratch_floats = table_.scratch_floats(encoder, network);
   constexpr std::size_t kChunk = 64 * kTile;
-  for_each((batch.size + kChunk - 1) / kChunk, [&](std::size_t chunk) {
+  for_each_range(batch.size, kChunk, [&](std::size_t begin, std::size_t end) {
     const FlushDenormals flush;
     KernelQuery q = {};
     q.encoder = &encoder;
     q.network = &network;
     q.points = points;
-    q.begin = chunk * kChunk;
-    q.end = std::min(batch.size, (chunk + 1) * kChunk);
-    q.bf16 = options.precision == QueryPrecision::bf16 ? 1 : 0;
+    q.begin = begin;
+    q.end = end;
+    q.bf16 = bf16 ? 1 : 0;
     q.range = static_cast<std::uint32_t>(options.range);
     q.scratch = scratch(scratch_floats);
     q.out = out.data();
@@ -326,7 +356,7 @@ void CpuBackend::import_state(const ModelState& state) {
   NetworkStore::Arrays network = network_.arrays_of(state);
   std::vector<std::uint32_t> triangle_steps = state.triangle_steps;
   std::vector<std::uint64_t> stamps(triangle_steps.size(), 0);
-  network_.set(std::move(network));
+  network_.set(network);
   triangle_steps_ = std::move(triangle_steps);
   triangle_stamps_ = std::move(stamps);
   features_.import_from(state);

@@ -57,7 +57,6 @@ void train(const KernelTraining& t) {
   const uint64_t tiles = (uint64_t{t.end} - t.begin + kTile - 1) / kTile;
   const uint64_t first_tile = t.begin / kTile;
   TilePoints points[2];
-  KernelChunkStatistics statistics = {};
   __builtin_memset(inputs, 0, kTile * n.input_stride * sizeof(float));
   __builtin_memset(b.outputs, 0, kTile * kOutputStride * sizeof(float));
 
@@ -67,6 +66,8 @@ void train(const KernelTraining& t) {
     TilePoints& tile = points[k & 1];
     uint32_t* nodes = t.nodes + (first_tile + k) * slots * kTile;
     float* weights = t.weights + (first_tile + k) * slots * kTile;
+    KernelChunkStatistics& statistics = t.statistics[k / t.chunk_tiles];
+    if (k % t.chunk_tiles == 0) statistics = {};
     statistics.rejected += take_points(e, t.points, t.targets, n.outputs, begin, count, tile);
     statistics.unstored += lookup(e, tile, nodes, weights);
     Float accepted = 0.0f;
@@ -74,10 +75,6 @@ void train(const KernelTraining& t) {
     statistics.accepted += static_cast<uint32_t>(sum(accepted));
     if (uint8_t* flags = t.accepted; flags != nullptr)
       for (uint32_t s = 0; s < count; ++s) flags[begin + s] = tile.valid[s] != 0.0f ? 1 : 0;
-    uint32_t* bucket_counts = t.bucket_counts;
-    const uint32_t shift = t.bucket_shift;
-    for (uint32_t i = 0; i < slots * kTile; ++i)
-      if (weights[i] != 0.0f) ++bucket_counts[nodes[i] >> shift];
   };
 
   if (tiles > 0) {
@@ -89,6 +86,9 @@ void train(const KernelTraining& t) {
     const uint32_t count = tile_count(t.begin, t.end, k);
     const uint32_t rows = padded_rows(count);
     const TilePoints& tile = points[k & 1];
+    KernelChunkStatistics& statistics = t.statistics[k / t.chunk_tiles];
+    float* const gradients = t.gradients + k / t.chunk_tiles * t.gradient_size;
+    if (k % t.chunk_tiles == 0) __builtin_memset(gradients, 0, t.gradient_size * sizeof(float));
     const uint32_t* nodes = t.nodes + (first_tile + k) * slots * kTile;
     const float* weights = t.weights + (first_tile + k) * slots * kTile;
     if (k + 2 < tiles)
@@ -101,7 +101,7 @@ void train(const KernelTraining& t) {
     const Between between{&ahead};
 
     if (t.inputs != nullptr) {
-      const float* given = t.inputs + (begin - t.begin) * n.input_stride;
+      const float* given = t.inputs + k % t.chunk_tiles * kTile * n.input_stride;
       if (count < kTile) __builtin_memcpy(inputs, given, count * n.input_stride * sizeof(float));
       b.inputs = count < kTile ? inputs : given;
     } else {
@@ -113,7 +113,7 @@ void train(const KernelTraining& t) {
                             tile.valid, count, rows, b.outputs, statistics.clipped);
     float* feature_gradients = t.feature_gradients + begin * n.feature_inputs;
     backward(
-        n, b, rows, t.gradients,
+        n, b, rows, gradients,
         [&](uint32_t r, uint32_t c, Float a) __attribute__((always_inline)) {
           if (r >= count || c >= n.feature_inputs) return;
           float* to = feature_gradients + r * n.feature_inputs + c;
@@ -125,7 +125,6 @@ void train(const KernelTraining& t) {
         between);
     ahead.rest();
   }
-  *t.statistics = statistics;
 }
 
 // Replaces values that are not finite by 0, then clamps to the range.

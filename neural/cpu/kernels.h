@@ -83,9 +83,9 @@ struct KernelLayer {
   // weight of output o for input 4 g + (input % 4) of 16.
   float* forward_groups;
   float* forward_groups_rounded;
-  uint64_t gradient;  // offset in a chunk's gradient: [inputs][padded outputs]; last layer [outputs][padded
-                      // inputs]
-  uint64_t bias_gradient;  // offset: padded outputs
+  // Offsets in the packed layout (packed_network.h): weights [inputs][padded outputs], in the last layer
+  // [outputs][padded inputs]; biases [padded outputs].
+  uint64_t gradient, bias_gradient;
 };
 
 struct KernelNetwork {
@@ -109,26 +109,26 @@ struct KernelChunkStatistics {
   uint32_t accepted, rejected, unstored, clipped;
 };
 
-// Arguments of encode, forward, loss and backward for records [begin, end); begin is a multiple of kTile.
+// Arguments of encode, forward, loss and backward for records [begin, end), which are whole chunks.
 struct KernelTraining {
   const KernelEncoder* encoder;
   const KernelNetwork* network;
   KernelPoints points;
   const float* targets;
   uint32_t begin, end;
+  uint32_t chunk_tiles;  // of a chunk; `begin` is that of a chunk
   uint32_t relative_loss;
   float max_target;
   float* scratch;  // KernelTable::scratch_floats floats, aligned to 64 bytes
-  // For benchmarks, else null: rows of input_stride floats that replace the encoding, starting at `begin`.
+  // For benchmarks, else null: rows of input_stride floats that replace the encoding of each chunk.
   const float* inputs;
   uint32_t* nodes;           // [tile][node slot][kTile]; weight 0 means no reference
   float* weights;            // as `nodes`
   float* feature_gradients;  // [record][feature_inputs]; gradients of the sum of the losses
-  uint32_t* bucket_counts;   // references of this chunk to each bucket (node >> bucket_shift); the caller
-                             // zeroes them
-  uint32_t bucket_shift;
   uint8_t* accepted;  // [record], or null
-  float* gradients;   // of the network; the caller zeroes them
+  // From the first chunk on: gradients of the network, gradient_size floats for each chunk, and statistics.
+  float* gradients;
+  uint64_t gradient_size;
   KernelChunkStatistics* statistics;
 };
 

@@ -1,7 +1,9 @@
 #pragma once
-// The network's parameters with Adam's moments and the running average, and their packed forms.
+// The network's parameters with Adam's moments and the running average.
 
+#include <atomic>
 #include <cstdint>
+#include <mutex>
 #include <span>
 #include <vector>
 
@@ -14,36 +16,44 @@ namespace gatelight::neural::cpu {
 
 class NetworkStore {
  public:
-  /// The network's part of a ModelState.
+  /// The network's part of a ModelState, each in the packed layout.
   struct Arrays {
-    std::vector<float> parameters, averages, first_moments, second_moments;
+    HugeBuffer<float> parameters, averages, first_moments, second_moments;
   };
 
   /// Both must outlive the object.
   NetworkStore(const Model& model, const TrainingOptions& options);
 
-  const PackedNetwork& packed() const { return raw_; }
-  /// The network of a query. Not thread-safe where the averages are packed for the first time after a step.
-  const KernelNetwork& query_kernel(bool averaged) const;
+  const KernelNetwork& kernel() const { return raw_.kernel(); }
+  /// The network of a query; `rounded`: also its forms for bf16. Thread-safe between updates.
+  const KernelNetwork& query_kernel(bool averaged, bool rounded) const;
 
   void set_output_biases(std::span<const double> values);
-  /// Adam's step number `step` with the sum of the packed gradients, times `scale`. Returns the number of
-  /// parameters that were skipped because their gradient is not finite.
-  std::uint64_t update(const float* packed_gradients, float scale, std::uint64_t step);
+  /// The number of floats of the packed layout.
+  std::uint64_t size() const { return layout_.size(); }
+  /// Adam's step for the parameters begin <= index < end, whose gradients are the sums of `count` arrays of
+  /// the packed layout, in their order, times `scale`. Ranges may be updated at the same time. Returns the
+  /// number of parameters that were skipped because their gradient is not finite.
+  std::uint64_t update(std::uint64_t begin, std::uint64_t end, const float* gradients, std::uint32_t count,
+                       float scale, const KernelAdamStep& adam);
+  /// Call it when all ranges are updated.
+  void updated();
 
   void export_to(ModelState& state) const;
   /// Copies the network's part; then set() cannot fail.
   Arrays arrays_of(const ModelState& state) const;
-  void set(Arrays arrays);
+  void set(const Arrays& arrays);
 
  private:
-  const ParameterLayout& layout_;
+  const ParameterLayout& parameters_;
   const TrainingOptions& options_;
+  PackedLayout layout_;
   Arrays arrays_;
-  std::vector<float> gradients_;
-  PackedNetwork raw_;
-  mutable PackedNetwork averaged_;
-  mutable bool averaged_packed_ = false;
+  // The forms that only queries read are made by the first one.
+  mutable PackedNetwork raw_, averaged_;
+  mutable std::mutex mutex_;
+  mutable std::atomic<bool> averaged_ready_ = false;
+  mutable std::atomic<bool> rounded_ready_[2] = {false, false};  ///< of raw_, of averaged_
 };
 
 }  // namespace gatelight::neural::cpu

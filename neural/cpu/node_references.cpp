@@ -1,18 +1,15 @@
 #include "neural/cpu/node_references.h"
 
-#include <algorithm>
 #include <bit>
-
-#include "base/parallel/loops.h"
-#include "base/platform/flush_denormals.h"
 
 namespace gatelight::neural::cpu {
 
-Buckets make_buckets(std::uint32_t nodes) {
-  constexpr std::uint32_t kBuckets = 1024, kLeastShift = 4;
+Buckets make_buckets(std::uint32_t nodes, std::uint32_t references) {
+  constexpr std::uint32_t kFewest = 128, kMost = 1024, kLeastShift = 4;
+  const std::uint32_t wanted = std::clamp(std::bit_floor(references / 2), kFewest, kMost);
   Buckets b;
   b.nodes = nodes;
-  b.shift = std::max(kLeastShift, static_cast<std::uint32_t>(std::bit_width(nodes / kBuckets)));
+  b.shift = std::max(kLeastShift, static_cast<std::uint32_t>(std::bit_width(nodes / wanted)));
   b.count = nodes == 0 ? 0 : ((nodes - 1) >> b.shift) + 1;
   return b;
 }
@@ -21,53 +18,61 @@ void NodeReferences::start(const Chunks& chunks, const Buckets& buckets, std::ui
   chunks_ = chunks;
   buckets_ = buckets;
   slots_ = slots;
-  const std::size_t tiles = (std::size_t{chunks.records} + kTile - 1) / kTile;
-  reserve(nodes_, tiles * slots * kTile);
-  reserve(weights_, tiles * slots * kTile);
-  reserve(references_, tiles * slots * kTile);
-  counts_.assign(std::size_t{chunks.count()} * buckets.count, 0);
-  starts_.assign(buckets.count + 1, 0);
+  const std::size_t references = std::size_t{chunks.tiles()} * slots * kTile;
+  reserve(nodes_, references);
+  reserve(weights_, references);
+  reserve(references_, references);
+  reserve(starts_, std::size_t{chunks.count} * (buckets.count + 1));
 }
 
-void NodeReferences::sort(std::uint32_t nodes_per_level, std::uint32_t features,
+void NodeReferences::sort(std::uint32_t chunk, std::uint32_t nodes_per_level, std::uint32_t features,
                           std::uint32_t feature_inputs) {
   if (buckets_.count == 0) return;
-  // Turn counts into the offsets at which each chunk writes into each bucket.
-  std::uint32_t total = 0;
-  for (std::uint32_t b = 0; b < buckets_.count; ++b) {
-    starts_[b] = total;
-    for (std::uint32_t c = 0; c < chunks_.count(); ++c) {
-      std::uint32_t& count = counts_[std::size_t{c} * buckets_.count + b];
-      const std::uint32_t here = count;
-      count = total;
-      total += here;
-    }
-  }
-  starts_[buckets_.count] = total;
+  const std::uint32_t shift = buckets_.shift, begin = chunks_.begin(chunk), end = chunks_.end(chunk);
+  const std::uint32_t* const nodes = nodes_.data() + std::size_t{begin} * slots_;
+  const float* const weights = weights_.data() + std::size_t{begin} * slots_;
+  // Slots behind the last record have weight 0.
+  const std::size_t count = std::size_t{(end - begin + kTile - 1) / kTile} * kTile * slots_;
 
-  for_each(chunks_.count(), [&](std::size_t number) {
-    const auto chunk = static_cast<std::uint32_t>(number);
-    // As in the count, a denormal weight counts as zero.
-    const FlushDenormals flush;
-    std::uint32_t* const next = counts(chunk);
-    KernelReference* const references = references_.data();
-    const std::uint32_t slots = slots_, shift = buckets_.shift;
-    for (std::uint32_t first = chunks_.begin(chunk); first < chunks_.end(chunk); first += kTile) {
-      const std::uint32_t* nodes = nodes_.data() + std::size_t{first} * slots;
-      const float* weights = weights_.data() + std::size_t{first} * slots;
-      const std::uint32_t count = std::min(kTile, chunks_.end(chunk) - first);
-      for (std::uint32_t s = 0; s < count; ++s) {
-        std::uint32_t source = (first + s) * feature_inputs;
-        for (std::uint32_t slot = 0; slot < slots; source += features)
-          for (std::uint32_t n = 0; n < nodes_per_level; ++n, ++slot) {
-            const float weight = weights[slot * kTile + s];
-            if (weight == 0.0f) continue;
-            const std::uint32_t node = nodes[slot * kTile + s];
-            references[next[node >> shift]++] = {node, source, weight};
-          }
+  // next[b] counts bucket b - 1, then is where its next reference goes, and at last where bucket b ends.
+  std::uint32_t* const next = starts(chunk);
+  std::fill_n(next, buckets_.count + 1, 0u);
+  for (std::size_t i = 0; i < count; ++i) next[(nodes[i] >> shift) + 1] += weights[i] != 0.0f ? 1u : 0u;
+  std::uint32_t total = 0;
+  for (std::uint32_t b = 0; b <= buckets_.count; ++b) {
+    total += next[b];
+    next[b] = total;
+  }
+  KernelReference* const to = references(chunk);
+  for (std::uint32_t first = begin; first < end; first += kTile) {
+    const std::size_t tile = std::size_t{first - begin} * slots_;
+    for (std::uint32_t slot = 0; slot < slots_; ++slot) {
+      const std::uint32_t level = slot / nodes_per_level * features;
+      for (std::uint32_t s = 0; s < kTile; ++s) {
+        const std::size_t i = tile + slot * kTile + s;
+        if (weights[i] == 0.0f) continue;
+        to[next[nodes[i] >> shift]++] = {nodes[i], (first + s) * feature_inputs + level, weights[i]};
       }
     }
-  });
+  }
+  for (std::uint32_t b = buckets_.count; b > 0; --b) next[b] = next[b - 1];
+  next[0] = 0;
+}
+
+std::uint32_t NodeReferences::size(std::uint32_t bucket) const {
+  std::uint32_t sum = 0;
+  for (std::uint32_t chunk = 0; chunk < chunks_.count; ++chunk) {
+    const std::uint32_t* const at = starts(chunk) + bucket;
+    sum += at[1] - at[0];
+  }
+  return sum;
+}
+
+void NodeReferences::copy(std::uint32_t bucket, KernelReference* to) const {
+  for (std::uint32_t chunk = 0; chunk < chunks_.count; ++chunk) {
+    const std::uint32_t* const at = starts(chunk) + bucket;
+    to = std::copy(references(chunk) + at[0], references(chunk) + at[1], to);
+  }
 }
 
 }  // namespace gatelight::neural::cpu

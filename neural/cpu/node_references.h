@@ -1,31 +1,37 @@
 #pragma once
-// References from records to nodes, sorted by buckets of neighbouring nodes with a stable counting sort.
-// Within a bucket they have the order of the records, so sums over a bucket do not depend on the number of
-// threads.
+// References from records to nodes. Each chunk of records sorts its own by buckets of neighbouring nodes, so
+// no step of the sort waits for another chunk. A bucket's references are then those of all chunks in their
+// order, so sums over a node do not depend on the number of threads.
 
+#include <algorithm>
 #include <cstdint>
-#include <vector>
 
 #include "neural/cpu/huge_buffer.h"
 #include "neural/cpu/kernels.h"
 
 namespace gatelight::neural::cpu {
 
-/// A batch is cut into chunks of whole tiles, depending only on its size.
+/// A batch is cut into chunks of whole tiles, depending only on its size: at most 64, because the network's
+/// gradients are summed for each.
 struct Chunks {
-  static constexpr std::uint32_t kRecords = 16 * kTile;
+  static constexpr std::uint32_t kMost = 64;
+
+  explicit Chunks(std::uint32_t batch_records = 0) : records(batch_records) {
+    const std::uint32_t all = tiles();
+    tiles_of_chunk = std::max((all + kMost - 1) / kMost, 1u);
+    count = (all + tiles_of_chunk - 1) / tiles_of_chunk;
+  }
+  std::uint32_t tiles() const { return records / kTile + (records % kTile > 0 ? 1 : 0); }
+  std::uint32_t begin(std::uint32_t chunk) const { return chunk * tiles_of_chunk * kTile; }
+  std::uint32_t end(std::uint32_t chunk) const { return std::min(begin(chunk + 1), records); }
 
   std::uint32_t records = 0;
-
-  std::uint32_t count() const { return (records + kRecords - 1) / kRecords; }
-  std::uint32_t begin(std::uint32_t chunk) const { return chunk * kRecords; }
-  std::uint32_t end(std::uint32_t chunk) const {
-    return records - begin(chunk) < kRecords ? records : begin(chunk) + kRecords;
-  }
+  std::uint32_t tiles_of_chunk = 1;
+  std::uint32_t count = 0;
 };
 
-/// A bucket holds 2^shift nodes. There are about a thousand buckets, so that threads share them evenly and a
-/// bucket's sums stay in the L2 cache.
+/// A bucket holds 2^shift nodes. A bucket's sums should stay in the L2 cache, and a chunk should have some
+/// references for each.
 struct Buckets {
   std::uint32_t shift = 0;
   std::uint32_t count = 0;
@@ -36,34 +42,44 @@ struct Buckets {
     return nodes - first(bucket) < (1u << shift) ? nodes - first(bucket) : 1u << shift;
   }
 };
-Buckets make_buckets(std::uint32_t nodes);
+/// For chunks of so many references.
+Buckets make_buckets(std::uint32_t nodes, std::uint32_t references);
 
 class NodeReferences {
  public:
-  /// Prepares for a batch and sets the counts of all chunks to zero.
+  /// Prepares for a batch whose records have `slots` references each.
   void start(const Chunks& chunks, const Buckets& buckets, std::uint32_t slots);
 
   // The kernels fill these arrays.
   std::uint32_t* nodes() const { return nodes_.data(); }
   float* weights() const { return weights_.data(); }
-  std::uint32_t* counts(std::uint32_t chunk) { return counts_.data() + std::size_t{chunk} * buckets_.count; }
 
-  /// Sorts the references that the kernels wrote. KernelReference::source is record * feature_inputs + level
-  /// * features.
-  void sort(std::uint32_t nodes_per_level, std::uint32_t features, std::uint32_t feature_inputs);
+  /// Sorts the references of a chunk that the kernels wrote. KernelReference::source is record *
+  /// feature_inputs + level * features. Chunks may be sorted at the same time.
+  void sort(std::uint32_t chunk, std::uint32_t nodes_per_level, std::uint32_t features,
+            std::uint32_t feature_inputs);
 
-  const KernelReference* begin(std::uint32_t bucket) const { return references_.data() + starts_[bucket]; }
-  std::uint32_t size(std::uint32_t bucket) const { return starts_[bucket + 1] - starts_[bucket]; }
+  /// The number of references to a bucket, when all chunks are sorted.
+  std::uint32_t size(std::uint32_t bucket) const;
+  /// Copies them to `to`.
+  void copy(std::uint32_t bucket, KernelReference* to) const;
 
  private:
+  /// The references of a chunk to each bucket begin there, among those of the chunk.
+  std::uint32_t* starts(std::uint32_t chunk) const {
+    return starts_.data() + std::size_t{chunk} * (buckets_.count + 1);
+  }
+  KernelReference* references(std::uint32_t chunk) const {
+    return references_.data() + std::size_t{chunks_.begin(chunk)} * slots_;
+  }
+
   Chunks chunks_;
   Buckets buckets_;
   std::uint32_t slots_ = 0;
   HugeBuffer<std::uint32_t> nodes_;
   HugeBuffer<float> weights_;
   HugeBuffer<KernelReference> references_;
-  std::vector<std::uint32_t> counts_;  // [chunk][bucket]
-  std::vector<std::uint32_t> starts_;  // [bucket]
+  HugeBuffer<std::uint32_t> starts_;
 };
 
 }  // namespace gatelight::neural::cpu

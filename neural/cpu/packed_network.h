@@ -1,10 +1,11 @@
 #pragma once
-// The network's parameters in the layouts of the kernels: padded, also transposed, and in bf16.
+// The network in the layouts of the kernels. Parameters, gradients, moments and averages all have the packed
+// layout, so that they are updated element by element: hidden layers are [inputs][padded outputs], as the
+// forward pass reads them, and the last layer is [outputs][padded inputs], as the backward pass does. Each
+// layer's biases follow its weights. Padding stays zero.
 
 #include <cstdint>
-#include <memory>
 #include <span>
-#include <vector>
 
 #include "neural/cpu/huge_buffer.h"
 #include "neural/cpu/kernels.h"
@@ -12,23 +13,44 @@
 
 namespace gatelight::neural::cpu {
 
-class PackedNetwork {
+/// Indices into the packed layout.
+class PackedLayout {
  public:
-  explicit PackedNetwork(const Model& model);
+  explicit PackedLayout(const Model& model);
 
-  /// Packs `network`, the network's part of the flat parameters.
-  void pack(std::span<const float> network);
-
-  const KernelNetwork& kernel() const { return kernel_; }
-  /// Number of floats of a chunk's gradients.
-  std::uint64_t gradient_size() const { return gradient_size_; }
-  /// Copies a chunk's gradients to the layout of the flat parameters.
-  void unpack_gradients(const float* packed, std::span<float> network) const;
+  std::uint64_t size() const { return size_; }  ///< floats, a multiple of 16
+  bool has_biases() const { return model_->parameters.biases; }
+  /// Sizes and offsets of the layers, without data.
+  const KernelNetwork& network() const { return network_; }
+  /// `flat` is the network's part of the flat parameters.
+  void pack(std::span<const float> flat, float* packed) const;
+  void unpack(const float* packed, std::span<float> flat) const;
 
  private:
+  template <class Visit>
+  void each(Visit visit) const;
+
   const Model* model_;
-  KernelNetwork kernel_ = {};
-  std::uint64_t gradient_size_ = 0;
+  KernelNetwork network_ = {};
+  std::uint64_t size_ = 0;
+};
+
+/// The forms of packed parameters that kernels read beside the packed layout itself.
+class PackedNetwork {
+ public:
+  /// `parameters` have the packed layout. Both must outlive the object.
+  PackedNetwork(const PackedLayout& layout, float* parameters);
+
+  /// Follows a change of the parameters begin <= index < end. Ranges may be updated at the same time.
+  void update(std::uint64_t begin, std::uint64_t end);
+  void update() { update(0, layout_.size()); }
+  /// Follows it in the rounded forms. Call it after update(), while nothing reads them.
+  void update_rounded();
+  const KernelNetwork& kernel() const { return kernel_; }
+
+ private:
+  const PackedLayout& layout_;
+  KernelNetwork kernel_;
   HugeBuffer<float> floats_;
   HugeBuffer<std::uint16_t> halves_;
 };

@@ -4,8 +4,8 @@
 
 namespace gatelight::neural {
 
-void Backend::start(const TrainingBatch& batch) {
-  made_.push_back(train(batch));
+void Backend::start(const TrainingBatch& batch, Team* team) {
+  made_.push_back(team != nullptr ? train(batch, *team) : train(batch));
 }
 
 StepStatistics Backend::finish() {

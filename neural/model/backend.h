@@ -10,6 +10,10 @@
 #include "neural/model/batch.h"
 #include "neural/model/state.h"
 
+namespace gatelight {
+class Team;  // base/parallel/team.h
+}
+
 namespace gatelight::neural {
 
 struct StepStatistics {
@@ -23,7 +27,7 @@ struct StepStatistics {
   std::uint64_t touched_nodes = 0;
   std::uint64_t skipped_updates = 0;  ///< parameters of the network or nodes whose gradient is not finite
   double seconds_network = 0.0;       ///< encode, forward, loss, backward
-  double seconds_sort = 0.0;          ///< sort of the gradients by node
+  double seconds_sort = 0.0;          ///< sort of the gradients by node, where it is a part of its own
   double seconds_update = 0.0;        ///< reduction and Adam
   double seconds = 0.0;               ///< the whole call
 };
@@ -40,22 +44,26 @@ struct QueryOptions {
   bool averaged = true;  ///< use the averages; else the raw parameters
 };
 
-/// Trains and queries one model. Only one thread may call at a time. Results have the same bits for any
-/// number of threads. A batch with spans of the wrong length throws BadConfiguration and changes nothing.
+/// Trains and queries one model. Only one thread may call at a time, but for query(), where it says so. Results
+/// have the same bits for any number of threads. A batch with spans of the wrong length throws BadConfiguration and changes nothing.
 class Backend {
  public:
   virtual ~Backend() = default;
   /// Makes one step over the whole batch. All started steps must be finished before. A batch without an
   /// accepted record changes nothing.
   virtual StepStatistics train(const TrainingBatch& batch) = 0;
+  /// The same by the lead of a team, with the team's threads.
+  virtual StepStatistics train(const TrainingBatch& batch, Team&) { return train(batch); }
   /// Starts a step. The caller may change the batch as soon as this returns. Later queries, exports and steps
   /// see its result.
-  virtual void start(const TrainingBatch& batch);
+  virtual void start(const TrainingBatch& batch, Team* team = nullptr);
   /// Waits for the oldest unfinished step and returns its statistics. Throws BadConfiguration if there is
   /// none.
   virtual StepStatistics finish();
   /// Whether start returns before the step is complete.
   virtual bool runs_alongside() const { return false; }
+  /// Whether several threads may query at a time, while no other function runs.
+  virtual bool answers_threads() const { return false; }
   /// Writes batch.size x outputs floats, row-major. Points without storage have zero features. A point with a
   /// non-finite input that the model reads gives NaN with `raw`, else 0.
   virtual void query(const QueryBatch& batch, const QueryOptions& options, std::span<float> out) const = 0;

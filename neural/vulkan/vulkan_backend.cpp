@@ -43,7 +43,7 @@ class VulkanBackend final : public Backend {
   ~VulkanBackend() override;
 
   StepStatistics train(const TrainingBatch& batch) override;
-  void start(const TrainingBatch& batch) override;
+  void start(const TrainingBatch& batch, Team*) override;
   StepStatistics finish() override;
   bool runs_alongside() const override { return true; }
   const QuerySeconds& query_seconds() const { return query_seconds_; }
@@ -137,11 +137,11 @@ void VulkanBackend::describe_model() {
 }
 
 StepStatistics VulkanBackend::train(const TrainingBatch& batch) {
-  start(batch);
+  start(batch, nullptr);
   return finish();
 }
 
-void VulkanBackend::start(const TrainingBatch& batch) {
+void VulkanBackend::start(const TrainingBatch& batch, Team*) {
   check_batch(*model_, batch);
   const std::uint64_t most = most_records(*model_, machine_->device().limits().longest_buffer);
   if (batch.points.size > most)

@@ -76,7 +76,7 @@ class CacheSession {
 
   /// Answers in the picture's units: radiance over reflectance (3 floats per point) or transmittance of
   /// occlusion rays (1). Negative answers and those that are not finite become zero; returns the number of
-  /// such points. Not thread-safe.
+  /// such points.
   std::uint64_t answer(const SurfacePoints& points, std::span<float> answers) const;
 
   CacheState export_state() const;
@@ -95,8 +95,8 @@ class CacheSession {
   const CacheSetup& setup() const { return setup_; }
   std::span<const std::uint32_t> triangle_counts() const { return counts_.values(); }
   std::uint64_t outputs() const { return model().config.mlp.outputs; }
-  /// Whether the model runs on a separate device.
-  bool on_device() const { return trainer_->backend().runs_alongside(); }
+  /// Whether several threads may call answer() at a time.
+  bool answers_threads() const { return trainer_->backend().answers_threads(); }
   /// Rays of scouting and training, of this rank.
   RayCounts rays() const;
   /// Paths of training that this rank has traced.
@@ -120,11 +120,14 @@ class CacheSession {
   /// Makes the parts that refer to a world and its view.
   void connect(const World& world, const Camera& camera, const PixelRect& region);
   RecordRequest request(std::uint64_t step, std::uint64_t count, std::uint64_t first_sample) const;
-  void trace(std::uint64_t step, std::uint64_t count, std::uint64_t first_sample, Group& group);
+  void begin(std::uint64_t step, std::uint64_t count, std::uint64_t first_sample, Group& group);
+  /// Traces a group that was begun while the cache learns from another; both may be null.
+  void trace_and_learn(Group* next, Group* learning, const Watch& watch);
   void finish(Group& group);
-  /// Trains with the records of all ranks.
-  void learn_from(Group& group, const Watch& watch);
-  void learn(const RecordBatch& group, std::uint64_t batch);
+  /// Takes the records of all ranks.
+  void receive(Group& group, const Watch& watch);
+  void learn(const RecordBatch& group, std::uint64_t batch, Team& team);
+  void rebalance(const Watch& watch);
   void look_at_answers(const RecordBatch& group);
 
   const RenderOptions& options_;

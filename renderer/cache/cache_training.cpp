@@ -1,12 +1,16 @@
 // The training of a CacheSession.
 
+#include <tbb/task_arena.h>
+
 #include <algorithm>
+#include <atomic>
 #include <bit>
 #include <numeric>
 #include <utility>
 
 #include "base/clock.h"
 #include "base/parallel/schedule.h"
+#include "base/parallel/team.h"
 #include "renderer/cache/cache_query.h"
 #include "renderer/cache/cache_session.h"
 #include "renderer/cache/record_exchange.h"
@@ -54,11 +58,9 @@ RecordRequest CacheSession::request(std::uint64_t step, std::uint64_t count,
   return request;
 }
 
-void CacheSession::learn(const RecordBatch& group, std::uint64_t batch) {
+void CacheSession::learn(const RecordBatch& group, std::uint64_t batch, Team& team) {
   const schedule::Section section("step");
-  const Clock::time_point begin = Clock::now();
-  trainer_->start(group.batch(batch));
-  statistics_.train_step_seconds += seconds_since(begin);
+  trainer_->start(group.batch(batch), &team);
   ++steps_;
   ++steps_under_way_;
   statistics_.steps += 1;
@@ -66,7 +68,6 @@ void CacheSession::learn(const RecordBatch& group, std::uint64_t batch) {
 }
 
 void CacheSession::synchronize() {
-  const Clock::time_point begin = Clock::now();
   while (steps_under_way_ > 0) {
     const neural::StepStatistics step = trainer_->finish();
     const std::uint64_t number = steps_ - --steps_under_way_;
@@ -80,7 +81,6 @@ void CacheSession::synchronize() {
                        static_cast<double>(last_losses_.size());
     guard_.look_at_loss(step, number);
   }
-  statistics_.train_step_seconds += seconds_since(begin);
 }
 
 void CacheSession::look_at_answers(const RecordBatch& group) {
@@ -88,29 +88,25 @@ void CacheSession::look_at_answers(const RecordBatch& group) {
   guard_.look_at_answers(group.targets, group.records.batch(0, some), *trainer_, steps_);
 }
 
-void CacheSession::trace(std::uint64_t step, std::uint64_t count, std::uint64_t first_sample, Group& group) {
-  const schedule::Section section("trace");
+void CacheSession::begin(std::uint64_t step, std::uint64_t count, std::uint64_t first_sample, Group& group) {
   const Clock::time_point begin = Clock::now();
-  const RayCounts before = records_->rays();
   group.request = request(step, count, first_sample);
-  records_->trace(group.request, group.records);
-  RayCounts rays = records_->rays();
-  rays.subtract(before);
-  group.rays = rays;
-  unlearned_rays_.add(rays);
-  group.work = {seconds_since(begin), rays.camera + rays.bounce + rays.shadow};
-  statistics_.train_trace_seconds += group.work.seconds;
+  group.rays = records_->rays();  // before it
+  records_->begin(group.request, group.records);
+  statistics_.train_trace_seconds += seconds_since(begin);
 }
 
 void CacheSession::finish(Group& group) {
-  double answered = 0.0;
-  const AnswerPoints answer_tail = [&](const SurfacePoints& points, std::span<float> answers) {
+  const Clock::time_point begin = Clock::now();
+  const bool threads = answers_threads();
+  std::atomic<double> asked = 0.0;  // by all threads
+  const auto ask = [&](const SurfacePoints& points, std::span<float> answers) {
     const Clock::time_point begin = Clock::now();
     ask_cache(*trainer_, neural::QueryPrecision::fp32, records_->units(setup_), points, answers);
-    answered += seconds_since(begin);
+    asked += seconds_since(begin);
   };
-  const Clock::time_point begin = Clock::now();
-  records_->finish(answer_tail, group.records);
+  records_->finish({ask, threads}, group.records);
+  const double answered = asked / (threads ? tbb::this_task_arena::max_concurrency() : 1);
   const double seconds = seconds_since(begin);
   statistics_.train_query_seconds += answered;
   statistics_.train_trace_seconds += seconds - answered;
@@ -121,7 +117,7 @@ void CacheSession::finish(Group& group) {
   group.coming = ranks_->ranks.begin_gather(std::move(packed));
 }
 
-void CacheSession::learn_from(Group& group, const Watch& watch) {
+void CacheSession::receive(Group& group, const Watch& watch) {
   const Clock::time_point begin = Clock::now();
   RecordBatch& records = group.records;
   unlearned_rays_.subtract(group.rays);
@@ -142,11 +138,40 @@ void CacheSession::learn_from(Group& group, const Watch& watch) {
   if (watch.samples && group.samples() > 0) watch.samples(records);
   statistics_.train_trace_seconds += seconds_since(begin);
   if (watch.before_learning) watch.before_learning(records);
-  for (std::uint64_t batch = 0; batch < group.steps(); ++batch) {
-    counts_.add(records, batch, steps_);
-    learn(records, batch);
-  }
-  if (!trainer_->backend().runs_alongside()) look_at_answers(records);
+}
+
+void CacheSession::trace_and_learn(Group* next, Group* learning, const Watch& watch) {
+  const int threads = tbb::this_task_arena::max_concurrency();
+  std::atomic<double> traced = 0.0;  // by all threads
+  // Ranks exchange records while they trace the next ones; a single process shares this work, too.
+  if (learning && !ranks_) receive(*learning, watch);
+  Team::run(
+      [&](Team& team) {
+        if (!learning) return;
+        if (ranks_) receive(*learning, watch);
+        const Clock::time_point begin = Clock::now();
+        for (std::uint64_t batch = 0; batch < learning->steps(); ++batch) {
+          counts_.add(learning->records, batch, steps_);
+          learn(learning->records, batch, team);
+        }
+        statistics_.train_step_seconds += seconds_since(begin);
+      },
+      next ? next->records.starts.blocks() : 0,
+      [&](std::size_t block) {
+        const Clock::time_point begin = Clock::now();
+        records_->trace(next->records, block);
+        traced += seconds_since(begin);
+      });
+  if (!next) return;
+  RayCounts rays = records_->rays();
+  rays.subtract(next->rays);
+  next->rays = rays;
+  unlearned_rays_.add(rays);
+  next->work = {traced / threads, rays.camera + rays.bounce + rays.shadow};
+  statistics_.train_trace_seconds += next->work.seconds;
+}
+
+void CacheSession::rebalance(const Watch& watch) {
   const auto longer = [](const RankWork& a, const RankWork& b) { return a.seconds < b.seconds; };
   const auto longest = std::max_element(work_.begin(), work_.end(), longer);
   if (!watch.rebalance || longest == work_.end() || longest->seconds < kRebalanceSeconds) return;
@@ -159,9 +184,9 @@ void CacheSession::train(std::uint64_t steps, const Watch& watch) {
   const Clock::time_point start = Clock::now();
   const double before = statistics_.train_seconds;
   const auto wanted = static_cast<int>(steps);
-  // With ranks a group is traced while the records of the one before are exchanged. This is not possible
-  // with candidates, which depend on the counts of the group before.
-  const bool ahead = ranks_ && options_.cache.candidates == 1;
+  // A group is traced while the one before is learned. This is not possible with candidates, which depend on
+  // the counts of the group before.
+  const bool ahead = options_.cache.candidates == 1;
   const auto give_up = [&] {
     const double limit = options_.cache.train_seconds;
     if (watch.stop && watch.stop()) return true;
@@ -170,43 +195,34 @@ void CacheSession::train(std::uint64_t steps, const Watch& watch) {
     return ranks_ ? agreed(ranks_->ranks, over) : over;
   };
   Group groups[2];
-  Group *next = &groups[0], *last = ahead ? &groups[1] : next;
   Group* learning = nullptr;  // traced and finished, but not learned
-  const auto learn_now = [&] {
-    learn_from(*learning, watch);
-    learning = nullptr;
-    statistics_.train_seconds = before + seconds_since(start);
-    if (watch.progress) watch.progress(static_cast<int>(steps_), wanted, statistics_.loss);
-    if (watch.after_group) watch.after_group();
-    return !give_up();
-  };
-  bool goes_on = true;
-  while (goes_on) {
-    const std::uint64_t under_way = learning ? learning->steps() : 0, step = steps_ + under_way;
-    if (step >= steps && !learning) break;
-    Group* group = nullptr;
-    if (step < steps) {
-      group = next;
+  for (bool goes_on = true; goes_on;) {
+    const std::uint64_t step = steps_ + (learning ? learning->steps() : 0);
+    Group* next = nullptr;
+    if (step < steps && (ahead || !learning)) {
+      next = learning == &groups[0] ? &groups[1] : &groups[0];
       const std::uint64_t count = std::min(group_end(step), steps) - step;
-      trace(step, count, samples_ + (learning ? learning->samples() : 0), *group);
+      begin(step, count, samples_ + (learning ? learning->samples() : 0), *next);
     }
-    if (learning) goes_on = learn_now();
-    if (!group) continue;
-    if (!goes_on) {
+    if (!next && !learning) break;
+    trace_and_learn(next, learning, watch);
+    if (learning) {
+      synchronize();  // the steps of a device
+      look_at_answers(learning->records);
+      rebalance(watch);
+      statistics_.train_seconds = before + seconds_since(start);
+      if (watch.progress) watch.progress(static_cast<int>(steps_), wanted, statistics_.loss);
+      if (watch.after_group) watch.after_group();
+      goes_on = !give_up();
+    }
+    if (next && goes_on) finish(*next);
+    if (next && !goes_on) {
       // The group that was traced ahead will be traced again.
-      unlearned_rays_.subtract(group->rays);
-      abandoned_rays_.add(group->rays);
-      break;
+      unlearned_rays_.subtract(next->rays);
+      abandoned_rays_.add(next->rays);
     }
-    synchronize();  // the steps of the group before, which a device computed meanwhile
-    look_at_answers(last->records);
-    finish(*group);
-    learning = group;
-    std::swap(next, last);
-    if (!ahead) goes_on = learn_now();
+    learning = next;
   }
-  synchronize();
-  look_at_answers(last->records);
   statistics_.train_seconds = before + seconds_since(start);
 }
 

@@ -1,8 +1,7 @@
 #include "renderer/cache/cached_pass.h"
 
-#include <tbb/task_arena.h>
-
 #include <algorithm>
+#include <atomic>
 
 #include "base/clock.h"
 #include "base/finite_float.h"
@@ -13,14 +12,8 @@
 namespace gatelight::renderer {
 namespace {
 
-/// Tiles whose queries are answered together: enough for all threads between two barriers, and so few that
-/// the paths of two threads stay in their second-level caches (64 take 5 % less time than 256). A device
-/// needs many points at once.
-int tiles_together(bool on_device) {
-  constexpr int kFewest = 64, kOfThread = 8, kOfDevice = 256;
-  if (on_device) return kOfDevice;
-  return std::max(kFewest, kOfThread * tbb::this_task_arena::max_concurrency());
-}
+/// Tiles whose queries a device answers together.
+constexpr int kTilesOfDevice = 256;
 
 /// A pseudorandom colour for a number.
 Color color_of(std::uint32_t number) {
@@ -62,62 +55,94 @@ CachedPass::CachedPass(const World& world, const PassContext& context, CacheSess
 }
 
 void CachedPass::run(int samples, Film& film, const std::function<void(double)>& report) {
+  session_.answers_threads() ? run_tiles(samples, film, report) : run_batches(samples, film, report);
+}
+
+void CachedPass::run_tiles(int samples, Film& film, const std::function<void(double)>& report) {
+  const Clock::time_point start = Clock::now();
   const TileGrid& grid = context_.tiles;
-  const RenderOptions& options = context_.options;
-  const bool occlusion = options.integrator == Integrator::nao;
+  std::atomic<int> done = 0;
+  for_each(static_cast<std::size_t>(grid.count()), [&](std::size_t t) {
+    if (out_of_time()) return;
+    CachedWorker& worker = workers_.local();
+    Tile& tile = worker.tile;
+    grid.pixels(static_cast<int>(t), tile.pixels);
+    for (int sample = 0; sample < samples; ++sample) {
+      begin(tile, film, worker);
+      const SurfacePoints& queries = tile.paths.queries;
+      worker.answers.resize(session_.outputs() * queries.size());
+      const Clock::time_point asked = Clock::now();
+      if (queries.size() > 0)
+        worker.statistics.negative_answers += session_.answer(queries, worker.answers);
+      worker.statistics.render_query_seconds += seconds_since(asked);
+      worker.statistics.queries += queries.size();
+      worker.statistics.unstored_hits += tile.paths.unstored_hits;
+      tile.answers = worker.answers;
+      finish(tile, film, worker);
+    }
+    report(static_cast<double>(++done) / grid.count());
+  });
+  statistics_.render_trace_seconds += seconds_since(start);
+}
+
+void CachedPass::run_batches(int samples, Film& film, const std::function<void(double)>& report) {
+  const TileGrid& grid = context_.tiles;
   const std::size_t outputs = session_.outputs();
-  const int together = tiles_together(session_.on_device());
-  const int chunks = (grid.count() + together - 1) / together;
+  const int chunks = (grid.count() + kTilesOfDevice - 1) / kTilesOfDevice;
   const double all = static_cast<double>(samples) * chunks;
   int done = 0;
   for (int sample = 0; sample < samples; ++sample) {
     for (int chunk = 0; chunk < chunks && !out_of_time(); ++chunk) {
-      const int first_tile = chunk * together;
-      const auto count = static_cast<std::size_t>(std::min(together, grid.count() - first_tile));
+      const int first_tile = chunk * kTilesOfDevice;
+      const auto count = static_cast<std::size_t>(std::min(kTilesOfDevice, grid.count() - first_tile));
       tiles_.resize(std::max(tiles_.size(), count));
       Clock::time_point start = Clock::now();
       for_each(count, [&](std::size_t t) {
-        Tile& tile = tiles_[t];
-        if (tile.paths.queries.inputs() != session_.inputs()) tile.paths = PathBatch(session_.inputs());
-        grid.pixels(first_tile + static_cast<int>(t), tile.pixels);
-        film.take(tile.pixels, tile.taken);
-        make_camera_samples(tile.taken, film, options, context_.camera, context_.filter, tile.samples);
-        tile.first_hits.resize(film.needs_first_hits() ? tile.taken.size() : 0);
-        tile.results.resize(tile.taken.size());
-        CachedWorker& worker = workers_.local();
-        occlusion ? trace_occlusion(tile, worker) : trace_paths(tile, worker);
+        grid.pixels(first_tile + static_cast<int>(t), tiles_[t].pixels);
+        begin(tiles_[t], film, workers_.local());
       });
-      std::size_t query_count = 0;
-      for (std::size_t t = 0; t < count; ++t) {
-        tiles_[t].first_query = query_count;
-        query_count += tiles_[t].paths.queries.size();
-      }
-      queries_.resize(query_count);
+      offsets_.assign(1, 0);
+      for (std::size_t t = 0; t < count; ++t)
+        offsets_.push_back(offsets_.back() + tiles_[t].paths.queries.size());
+      queries_.resize(offsets_.back());
       for_each(count, [&](std::size_t t) {
         const SurfacePoints& points = tiles_[t].paths.queries;
-        queries_.copy(points, 0, points.size(), tiles_[t].first_query);
+        queries_.copy(points, 0, points.size(), offsets_[t]);
       });
-      answers_.resize(outputs * query_count);
+      answers_.resize(outputs * offsets_.back());
       statistics_.render_trace_seconds += seconds_since(start);
 
       start = Clock::now();
-      if (query_count > 0) statistics_.negative_answers += session_.answer(queries_, answers_);
+      if (queries_.size() > 0) statistics_.negative_answers += session_.answer(queries_, answers_);
       statistics_.render_query_seconds += seconds_since(start);
-      statistics_.queries += query_count;
+      statistics_.queries += queries_.size();
 
       start = Clock::now();
       for_each(count, [&](std::size_t t) {
-        Tile& tile = tiles_[t];
-        CachedWorker& worker = workers_.local();
-        occlusion ? finish_occlusion(tile) : finish_paths(tile);
-        if (!tile.first_hits.empty()) describe_answers(tile, worker);
-        add_to_film(tile.taken, options, tile.results, tile.first_hits, film, worker.counts);
+        tiles_[t].answers = std::span<const float>(answers_).subspan(
+            outputs * offsets_[t], outputs * (offsets_[t + 1] - offsets_[t]));
+        finish(tiles_[t], film, workers_.local());
       });
       for (std::size_t t = 0; t < count; ++t) statistics_.unstored_hits += tiles_[t].paths.unstored_hits;
       statistics_.render_trace_seconds += seconds_since(start);
       report(++done / all);
     }
   }
+}
+
+void CachedPass::begin(Tile& tile, Film& film, CachedWorker& worker) const {
+  if (tile.paths.queries.inputs() != session_.inputs()) tile.paths = PathBatch(session_.inputs());
+  film.take(tile.pixels, tile.taken);
+  make_camera_samples(tile.taken, film, context_.options, context_.camera, context_.filter, tile.samples);
+  tile.first_hits.resize(film.needs_first_hits() ? tile.taken.size() : 0);
+  tile.results.resize(tile.taken.size());
+  context_.options.integrator == Integrator::nao ? trace_occlusion(tile, worker) : trace_paths(tile, worker);
+}
+
+void CachedPass::finish(Tile& tile, Film& film, CachedWorker& worker) const {
+  context_.options.integrator == Integrator::nao ? finish_occlusion(tile) : finish_paths(tile);
+  if (!tile.first_hits.empty()) describe_answers(tile, worker);
+  add_to_film(tile.taken, context_.options, tile.results, tile.first_hits, film, worker.counts);
 }
 
 void CachedPass::trace_paths(Tile& tile, CachedWorker& worker) const {
@@ -128,8 +153,7 @@ void CachedPass::trace_paths(Tile& tile, CachedWorker& worker) const {
 
 void CachedPass::finish_paths(Tile& tile) const {
   tile.radiance.resize(tile.samples.size());
-  const std::span<const float> answers =
-      std::span<const float>(answers_).subspan(3 * tile.first_query, 3 * tile.paths.queries.size());
+  const std::span<const float> answers = tile.answers;
   if (plan_.guides && !tile.first_hits.empty()) tile.paths.write_guides(answers, tile.first_hits);
   tile.paths.resolve(answers, tile.radiance);
   if (context_.options.cache.view == CacheView::cache) {
@@ -169,7 +193,7 @@ void CachedPass::finish_occlusion(Tile& tile) const {
   for (std::size_t i = 0; i < tile.results.size(); ++i) {
     const std::int32_t query = tile.paths.first_queries[i];
     if (query == kNone) continue;
-    tile.results[i].radiance.setConstant(answers_[tile.first_query + static_cast<std::size_t>(query)]);
+    tile.results[i].radiance.setConstant(tile.answers[static_cast<std::size_t>(query)]);
   }
 }
 
@@ -205,7 +229,7 @@ void CachedPass::describe_answers(Tile& tile, CachedWorker& worker) const {
     const auto query = static_cast<std::size_t>(tile.paths.first_queries[i]);
     FirstHit& first = tile.first_hits[i];
     first.queried = true;
-    const float* const answer = &answers_[outputs * (tile.first_query + query)];
+    const float* const answer = &tile.answers[outputs * query];
     for (int c = 0; c < 3; ++c) first.answer[c] = answer[outputs == 3 ? c : 0];
     if (records[i] != kNone) {
       const float scale = session_.setup().target_scale;
@@ -233,11 +257,19 @@ void CachedPass::describe_answers(Tile& tile, CachedWorker& worker) const {
 }
 
 void CachedPass::add_to(CacheStatistics& statistics) const {
-  statistics.render_trace_seconds += statistics_.render_trace_seconds;
-  statistics.render_query_seconds += statistics_.render_query_seconds;
-  statistics.queries += statistics_.queries;
-  statistics.negative_answers += statistics_.negative_answers;
-  statistics.unstored_hits += statistics_.unstored_hits;
+  const auto add = [&](const CacheStatistics& part) {
+    statistics.queries += part.queries;
+    statistics.negative_answers += part.negative_answers;
+    statistics.unstored_hits += part.unstored_hits;
+  };
+  add(statistics_);
+  double query = 0.0;  // of all threads, while others traced
+  for (const CachedWorker& worker : workers_) {
+    add(worker.statistics);
+    query += worker.statistics.render_query_seconds / static_cast<double>(workers_.size());
+  }
+  statistics.render_trace_seconds += statistics_.render_trace_seconds - query;
+  statistics.render_query_seconds += statistics_.render_query_seconds + query;
 }
 
 }  // namespace gatelight::renderer

@@ -1,6 +1,10 @@
 #pragma once
-// Passes of the integrators with a cache. Many tiles are traced up to their queries, answered together, and
-// finished.
+// Passes of the integrators with a cache. A thread traces a tile up to its queries, answers them and finishes the
+// tile. A separate device needs many points at once: there many tiles are traced, answered together, and finished.
+
+#include <functional>
+#include <span>
+#include <vector>
 
 #include "renderer/cache/cache_session.h"
 #include "renderer/cache/cached_paths.h"
@@ -9,10 +13,26 @@
 
 namespace gatelight::renderer {
 
+/// A tile between its tracing and its answers.
+struct CachedTile {
+  std::vector<Pixel> pixels;
+  std::vector<PixelSample> taken;
+  std::vector<CameraSample> samples;
+  std::vector<PathStart> starts;
+  std::vector<SampleResult> results;
+  std::vector<FirstHit> first_hits;
+  std::vector<Color> radiance;
+  PathBatch paths;
+  std::span<const float> answers;  ///< of paths.queries
+};
+
 struct CachedWorker {
   CachedPaths::Scratch scratch;
   AoIntegrator::Scratch occlusion;
   PathBatch check;  ///< for the layer cache-error
+  CachedTile tile;
+  std::vector<float> answers;  ///< of the tile
+  CacheStatistics statistics;  ///< of its tiles
   RayCounts rays;
   SampleCounts counts;
 };
@@ -27,19 +47,14 @@ class CachedPass : public WorkerPass<CachedWorker> {
   void run(int samples, Film& film, const std::function<void(double)>& report) override;
 
  private:
-  /// A tile between its tracing and its answers.
-  struct Tile {
-    std::vector<Pixel> pixels;
-    std::vector<PixelSample> taken;
-    std::vector<CameraSample> samples;
-    std::vector<PathStart> starts;
-    std::vector<SampleResult> results;
-    std::vector<FirstHit> first_hits;
-    std::vector<Color> radiance;
-    PathBatch paths;
-    std::size_t first_query = 0;
-  };
+  using Tile = CachedTile;
 
+  void run_tiles(int samples, Film& film, const std::function<void(double)>& report);
+  void run_batches(int samples, Film& film, const std::function<void(double)>& report);
+  /// Traces the next sample of the tile's pixels up to its queries.
+  void begin(Tile& tile, Film& film, CachedWorker& worker) const;
+  /// Adds the sample, with its answers, to the film.
+  void finish(Tile& tile, Film& film, CachedWorker& worker) const;
   void trace_paths(Tile& tile, CachedWorker& worker) const;
   void trace_occlusion(Tile& tile, CachedWorker& worker) const;
   void finish_paths(Tile& tile) const;
@@ -55,10 +70,12 @@ class CachedPass : public WorkerPass<CachedWorker> {
   PathPlan plan_;
   AoIntegrator ao_;
   bool needs_error_;
+  CacheStatistics statistics_;  ///< beside those of the workers
+  // Of a device.
   std::vector<Tile> tiles_;
+  std::vector<std::size_t> offsets_;  ///< of the tiles' queries
   SurfacePoints queries_;
   std::vector<float> answers_;
-  CacheStatistics statistics_;
 };
 
 }  // namespace gatelight::renderer

@@ -2,6 +2,8 @@
 // Records of ambient occlusion at training points: the estimate of AoIntegrator, with one or more rays per
 // point.
 
+#include <tbb/enumerable_thread_specific.h>
+
 #include "renderer/cache/cache_state.h"
 #include "renderer/cache/record_batch.h"
 #include "renderer/transport/ao_integrator.h"
@@ -21,9 +23,11 @@ class OcclusionRecords : public RecordSource {
   AnswerUnits units(const CacheSetup&) const override { return {.greatest = 1.0f}; }
   std::size_t outputs() const override { return 1; }
   const PointInputs& inputs() const override { return inputs_; }
-  void trace(const RecordRequest& request, RecordBatch& batch) override;
+  using RecordSource::trace;
+  void begin(const RecordRequest& request, RecordBatch& batch) override;
+  void trace(RecordBatch& batch, std::size_t block) override;
   void finish(const AnswerPoints&, RecordBatch&) override {}
-  RayCounts rays() const override { return rays_; }
+  RayCounts rays() const override;
 
  private:
   const World& world_;
@@ -32,7 +36,9 @@ class OcclusionRecords : public RecordSource {
   const StoredSurfaces& stored_;
   float distance_;
   PointInputs inputs_;
-  RayCounts rays_;
+  bool needs_hits_ = false;  ///< the starts that were begun last have no hits yet
+  RayCounts start_rays_;
+  tbb::enumerable_thread_specific<RayCounts> counts_;
 };
 
 }  // namespace gatelight::renderer

@@ -39,7 +39,7 @@ RecordRequest RadianceRecords::request(const CacheSetup& setup, std::uint64_t st
   return request;
 }
 
-void RadianceRecords::trace(const RecordRequest& request, RecordBatch& batch) {
+void RadianceRecords::begin(const RecordRequest& request, RecordBatch& batch) {
   RayCounts by_all;  // all ranks trace them, and one counts them
   const bool counting = !request.ranks || request.ranks->ranks.first();
   points_.choose(request.step, request.points, false, request.counts, batch.starts,
@@ -48,7 +48,7 @@ void RadianceRecords::trace(const RecordRequest& request, RecordBatch& batch) {
   if (request.ranks) choose_tracers(batch, *request.ranks);
   const bool samples = !batch.starts.samples.empty();
   batch.first_hits.resize(samples ? batch.starts.starts.size() : 0);
-  PathPlan plan;
+  PathPlan& plan = batch.plan = {};
   plan.records = true;
   if (samples) {
     plan.samples_at = options_.cache.query_at;
@@ -63,69 +63,88 @@ void RadianceRecords::trace(const RecordRequest& request, RecordBatch& batch) {
   plan.contribution_threshold = request.contribution_threshold;
   while (batch.paths.size() < batch.starts.blocks()) batch.paths.emplace_back(inputs_);
   batch.paths.resize(batch.starts.blocks());
-  for_each(batch.paths.size(), [&](std::size_t b) {
-    if (!batch.mine(b)) return batch.paths[b].begin(0);
-    Worker& worker = workers_.local();
-    const std::size_t begin = batch.starts.offsets[b];
-    const std::size_t size = batch.starts.offsets[b + 1] - begin;
-    std::span<const Hit> hits;
-    if (!batch.starts.hits.empty()) hits = std::span<const Hit>(batch.starts.hits).subspan(begin, size);
-    paths_.trace(std::span<const PathStart>(batch.starts.starts).subspan(begin, size), hits, plan,
-                 batch.paths[b],
-                 samples ? std::span(batch.first_hits).subspan(begin, size) : std::span<FirstHit>(),
-                 worker.rays, worker.scratch);
+}
+
+void RadianceRecords::trace(RecordBatch& batch, std::size_t block) {
+  if (!batch.mine(block)) return batch.paths[block].begin(0);
+  Worker& worker = workers_.local();
+  const std::size_t begin = batch.starts.offsets[block];
+  const std::size_t size = batch.starts.offsets[block + 1] - begin;
+  std::span<const Hit> hits;
+  if (!batch.starts.hits.empty()) hits = std::span<const Hit>(batch.starts.hits).subspan(begin, size);
+  std::span<FirstHit> first_hits;
+  if (!batch.first_hits.empty()) first_hits = std::span(batch.first_hits).subspan(begin, size);
+  paths_.trace(std::span<const PathStart>(batch.starts.starts).subspan(begin, size), hits, batch.plan,
+               batch.paths[block], first_hits, worker.rays, worker.scratch);
+}
+
+template <class Points, class Use>
+void RadianceRecords::ask(const AnswerPoints& answer, RecordBatch& batch, const Points& points,
+                          const Use& use) const {
+  const std::size_t blocks = batch.paths.size();
+  if (answer.threads) {
+    return for_each(blocks, [&](std::size_t block) {
+      SurfacePoints own(inputs_);
+      const SurfacePoints& asked = points(batch.paths[block], own);
+      std::vector<float> answers(3 * asked.size());
+      if (asked.size() > 0) answer.ask(asked, answers);
+      use(std::span<float>(answers), block);
+    });
+  }
+  // A device needs the points of all blocks at once.
+  std::vector<SurfacePoints> own(blocks, SurfacePoints(inputs_));
+  std::vector<const SurfacePoints*> asked(blocks);
+  for_each(blocks, [&](std::size_t block) { asked[block] = &points(batch.paths[block], own[block]); });
+  std::vector<std::size_t> offsets(1, 0);
+  for (const SurfacePoints* const of_block : asked) offsets.push_back(offsets.back() + of_block->size());
+  SurfacePoints all(inputs_);
+  all.resize(offsets.back());
+  for_each(blocks,
+           [&](std::size_t block) { all.copy(*asked[block], 0, asked[block]->size(), offsets[block]); });
+  std::vector<float> answers(3 * all.size());
+  if (all.size() > 0) answer.ask(all, answers);
+  for_each(blocks, [&](std::size_t block) {
+    use(std::span(answers).subspan(3 * offsets[block], 3 * asked[block]->size()), block);
   });
 }
 
 void RadianceRecords::finish(const AnswerPoints& answer, RecordBatch& batch) {
-  const std::vector<std::size_t> query_offsets =
-      offsets_of(batch.paths, [](const PathBatch& p) { return p.queries.size(); });
-  batch.queries = SurfacePoints(inputs_);
-  batch.queries.resize(query_offsets.back());
-  batch.answers.resize(3 * query_offsets.back());
-  for_each(batch.paths.size(), [&](std::size_t b) {
-    batch.queries.copy(batch.paths[b].queries, 0, batch.paths[b].queries.size(), query_offsets[b]);
-  });
-  if (!batch.answers.empty()) {
-    answer(batch.queries, batch.answers);
-    const float attenuation = options_.cache.self_training.attenuation;
-    if (attenuation != 1.0f) {
-      for (float& a : batch.answers) a *= attenuation;
-    }
-  }
   const bool samples = !batch.starts.samples.empty();
   batch.radiance.resize(batch.starts.samples.size());
-  for_each(batch.paths.size(), [&](std::size_t b) {
-    const std::size_t begin = 3 * query_offsets[b];
-    const std::span<const float> answers =
-        std::span<const float>(batch.answers).subspan(begin, 3 * query_offsets[b + 1] - begin);
-    std::span<Color> radiance;
-    if (samples) {
-      const std::size_t first = batch.starts.offsets[b];
-      radiance = std::span(batch.radiance).subspan(first, batch.paths[b].paths());
-      if (guides_)
-        batch.paths[b].write_guides(answers, std::span(batch.first_hits).subspan(first, radiance.size()));
-    }
-    batch.paths[b].resolve(answers, radiance);
-    const auto times = static_cast<std::size_t>(options_.cache.samples_per_point);
-    if (times > 1) batch.paths[b].average_first_records(times);
-  });
-  if (samples) end_samples(answer, batch);
+  ask(
+      answer, batch,
+      [](const PathBatch& paths, SurfacePoints&) -> const SurfacePoints& { return paths.queries; },
+      [&](std::span<float> answers, std::size_t block) { resolve(answers, batch, block); });
+  if (!samples) return;
+  ask(
+      answer, batch,
+      [](const PathBatch& paths, SurfacePoints& ends) -> const SurfacePoints& {
+        ends.resize(paths.count_ends());
+        paths.copy_ends(ends, 0);
+        return ends;
+      },
+      [&](std::span<float> answers, std::size_t block) { end_samples(answers, batch, block); });
 }
 
-/// Ends the picture's samples in the cache, at the same vertices as its other samples.
-void RadianceRecords::end_samples(const AnswerPoints& answer, RecordBatch& batch) const {
-  const std::vector<std::size_t> offsets =
-      offsets_of(batch.paths, [](const PathBatch& p) { return p.count_ends(); });
-  batch.queries.resize(offsets.back());
-  batch.answers.resize(3 * offsets.back());
-  for_each(batch.paths.size(),
-                    [&](std::size_t b) { batch.paths[b].copy_ends(batch.queries, offsets[b]); });
-  if (!batch.answers.empty()) answer(batch.queries, batch.answers);
-  for_each(batch.paths.size(), [&](std::size_t b) {
-    batch.paths[b].end_samples(std::span<const float>(batch.answers).subspan(3 * offsets[b]),
-                               std::span(batch.radiance).subspan(batch.starts.offsets[b]));
-  });
+void RadianceRecords::resolve(std::span<float> answers, RecordBatch& batch, std::size_t block) const {
+  const float attenuation = options_.cache.self_training.attenuation;
+  if (attenuation != 1.0f) {
+    for (float& a : answers) a *= attenuation;
+  }
+  PathBatch& paths = batch.paths[block];
+  std::span<Color> radiance;
+  if (!batch.radiance.empty()) {
+    const std::size_t first = batch.starts.offsets[block];
+    radiance = std::span(batch.radiance).subspan(first, paths.paths());
+    if (guides_) paths.write_guides(answers, std::span(batch.first_hits).subspan(first, radiance.size()));
+  }
+  paths.resolve(answers, radiance);
+  const auto times = static_cast<std::size_t>(options_.cache.samples_per_point);
+  if (times > 1) paths.average_first_records(times);
+}
+
+void RadianceRecords::end_samples(std::span<const float> answers, RecordBatch& batch, std::size_t block) {
+  batch.paths[block].end_samples(answers, std::span(batch.radiance).subspan(batch.starts.offsets[block]));
 }
 
 RayCounts RadianceRecords::rays() const {

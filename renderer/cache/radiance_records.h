@@ -19,12 +19,21 @@ class RadianceRecords : public RecordSource {
   AnswerUnits units(const CacheSetup& setup) const override { return {1.0f / setup.target_scale}; }
   std::size_t outputs() const override { return 3; }
   const PointInputs& inputs() const override { return inputs_; }
-  void trace(const RecordRequest& request, RecordBatch& batch) override;
+  using RecordSource::trace;
+  void begin(const RecordRequest& request, RecordBatch& batch) override;
+  void trace(RecordBatch& batch, std::size_t block) override;
   void finish(const AnswerPoints& answer, RecordBatch& batch) override;
   RayCounts rays() const override;
 
  private:
-  void end_samples(const AnswerPoints& answer, RecordBatch& batch) const;
+  /// Sums up the paths of a block, whose queries have these answers.
+  void resolve(std::span<float> answers, RecordBatch& batch, std::size_t block) const;
+  /// Ends the picture's samples of a block in the cache, at the same vertices as its other samples.
+  static void end_samples(std::span<const float> answers, RecordBatch& batch, std::size_t block);
+  /// Asks for the points of each block, and calls use(answers, block). points(paths, own) returns them; it may
+  /// put them into `own`.
+  template <class Points, class Use>
+  void ask(const AnswerPoints& answer, RecordBatch& batch, const Points& points, const Use& use) const;
 
   const CachedPaths& paths_;
   const TrainingPoints& points_;

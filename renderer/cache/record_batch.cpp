@@ -30,6 +30,11 @@ void RecordBatch::add_to(Film& film, const RenderOptions& options, const RankTil
   keep_first(counts.located);
 }
 
+void RecordSource::trace(const RecordRequest& request, RecordBatch& batch) {
+  begin(request, batch);
+  for_each(batch.starts.blocks(), [&](std::size_t block) { trace(batch, block); });
+}
+
 void RecordBatch::split(const RecordRequest& request, const PointInputs& inputs, std::size_t outputs) {
   const std::vector<std::size_t> offsets =
       offsets_of(paths, [](const PathBatch& p) { return p.records.size(); });

@@ -73,12 +73,11 @@ std::vector<std::size_t> offsets_of(const std::vector<PathBatch>& blocks, Size s
 /// Records of one or more batches.
 struct RecordBatch {
   TrainingStarts starts;
+  PathPlan plan;  ///< of the paths
   /// First hits and radiance of starts that are the picture's samples; else empty.
   std::vector<FirstHit> first_hits;
   std::vector<Color> radiance;
   std::vector<PathBatch> paths;  ///< one for each block of starts, with the records of the block
-  SurfacePoints queries;         ///< of all blocks, where paths end in the cache
-  std::vector<float> answers;
   SurfacePoints records;
   std::vector<float> targets;  ///< outputs for each record, times the scale of targets
   std::uint64_t paths_traced = 0;
@@ -112,11 +111,14 @@ struct AnswerUnits {
 };
 
 /// Answers in radiance over reflectance: 3 floats for each point.
-using AnswerPoints = std::function<void(const SurfacePoints& points, std::span<float> answers)>;
+struct AnswerPoints {
+  std::function<void(const SurfacePoints& points, std::span<float> answers)> ask;
+  bool threads = false;  ///< several may ask at a time
+};
 
-/// Makes records in two parts, so that tracing can overlap with the training of the steps before: trace()
-/// does not use the cache, finish() queries it. Both work on the rank's own blocks. Then the caller splits
-/// the records into batches. Gives the same bits for any number of threads.
+/// Makes records in parts, so that tracing can overlap with the training of the steps before: begin() and
+/// trace() do not use the cache, finish() queries it. They work on the rank's own blocks. Then the caller
+/// splits the records into batches. Gives the same bits for any number of threads.
 class RecordSource {
  public:
   virtual ~RecordSource() = default;
@@ -126,9 +128,15 @@ class RecordSource {
   virtual AnswerUnits units(const CacheSetup& setup) const = 0;
   virtual std::size_t outputs() const = 0;  ///< targets of a record
   virtual const PointInputs& inputs() const = 0;
-  virtual void trace(const RecordRequest& request, RecordBatch& batch) = 0;
+  /// Chooses the starts of the paths, which decide the number of blocks.
+  virtual void begin(const RecordRequest& request, RecordBatch& batch) = 0;
+  /// Traces a block. Blocks may be traced at the same time.
+  virtual void trace(RecordBatch& batch, std::size_t block) = 0;
   virtual void finish(const AnswerPoints& answer, RecordBatch& batch) = 0;
   virtual RayCounts rays() const = 0;
+
+  /// Begins, and traces all blocks.
+  void trace(const RecordRequest& request, RecordBatch& batch);
 
   /// Splits the records of all blocks into batches.
   void split(const RecordRequest& request, RecordBatch& batch) const {

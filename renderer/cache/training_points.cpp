@@ -1,10 +1,10 @@
 #include "renderer/cache/training_points.h"
 
 #include <tbb/parallel_for.h>
+#include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_sort.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 
 #include "base/parallel/loops.h"
@@ -90,9 +90,12 @@ void TrainingPoints::choose(std::uint64_t step, std::size_t count, bool need_hit
   } else {
     from_camera(step, count, result);
     const bool compare = options_.cache.candidates > 1 && !counts.empty();
-    if (need_hits || compare || options_.cache.samples_per_point > 1)
-      trace(
-          result, [](std::size_t) { return true; }, rays);
+    if (need_hits || compare || options_.cache.samples_per_point > 1) {
+      result.hits.assign(result.starts.size(), {});
+      tbb::enumerable_thread_specific<RayCounts> counts;
+      for_each(result.blocks(), [&](std::size_t block) { trace(result, block, counts.local()); });
+      for (const RayCounts& count : counts) rays.add(count);
+    }
   }
   if (options_.cache.candidates > 1 && !counts.empty()) prefer_seldom(step, counts, result);
   if (options_.cache.samples_per_point > 1) repeat(step, result);
@@ -200,23 +203,16 @@ void TrainingPoints::from_surfaces(std::uint64_t step, std::size_t count, Traini
   });
 }
 
-void TrainingPoints::trace(TrainingStarts& result, const std::function<bool(std::size_t)>& wanted,
-                           RayCounts& rays) const {
-  result.hits.assign(result.starts.size(), {});
-  std::atomic<std::uint64_t> traced_rays = 0;
-  for_each(result.blocks(), [&](std::size_t block) {
-    if (!wanted(block)) return;
-    const std::size_t begin = result.offsets[block];
-    const std::size_t size = result.offsets[block + 1] - begin;
-    traced_rays += size;
-    std::vector<Ray> traced(size);
-    for (std::size_t i = 0; i < size; ++i) {
-      traced[i] = result.starts[begin + i].sample.camera_ray.ray;
-      traced[i].seed = result.starts[begin + i].sample.seed;
-    }
-    world_.accel.intersect(traced, std::span(result.hits).subspan(begin, size), true);
-  });
-  rays.camera += traced_rays;
+void TrainingPoints::trace(TrainingStarts& result, std::size_t block, RayCounts& rays) const {
+  const std::size_t begin = result.offsets[block];
+  const std::size_t size = result.offsets[block + 1] - begin;
+  rays.camera += size;
+  std::vector<Ray> traced(size);
+  for (std::size_t i = 0; i < size; ++i) {
+    traced[i] = result.starts[begin + i].sample.camera_ray.ray;
+    traced[i].seed = result.starts[begin + i].sample.seed;
+  }
+  world_.accel.intersect(traced, std::span(result.hits).subspan(begin, size), true);
 }
 
 std::uint32_t TrainingPoints::triangle_number(const Hit& hit, const Vec3& direction) const {

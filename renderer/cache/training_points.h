@@ -1,7 +1,6 @@
 #pragma once
 // The points where training paths begin.
 
-#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -45,9 +44,9 @@ class TrainingPoints {
               TrainingStarts& result, RayCounts& rays,
               const std::optional<std::uint64_t>& first_sample = {}) const;
 
-  /// Finds the hits of the starts in some blocks.
-  void trace(TrainingStarts& starts, const std::function<bool(std::size_t block)>& wanted,
-             RayCounts& rays) const;
+  /// Finds the hits of the starts in a block. `starts.hits` has room for all. Blocks may be traced at the same
+  /// time.
+  void trace(TrainingStarts& starts, std::size_t block, RayCounts& rays) const;
 
   static constexpr std::uint32_t kNoTriangle = ~0u;
   /// Index, among all triangles with storage, of the side of the triangle that a ray hit; or kNoTriangle.
