@@ -143,7 +143,7 @@ class DenoiseRun {
     const tbb::global_control control(tbb::global_control::max_allowed_parallelism,
                                       static_cast<std::size_t>(threads));
     tbb::task_arena arena(threads);
-    const renderer::Denoiser denoiser(oidn, threads, settings_.render.memory_limit_bytes);
+    renderer::Denoiser denoiser(oidn, threads, settings_.render.memory_limit_bytes);
     progress_.phase("load");
     renderer::Picture picture = read();
     apply_recipe(picture, given_, settings_);

@@ -1,6 +1,6 @@
 // picture/SCENE/{paths,bare,preview,standard,final}/threads:N: whole pictures of 960x540, as gatelight render
-// makes them. Counters are the seconds of their phases. With --schedule FILE the last picture's loops and tasks
-// are recorded, for scripts/measure/model-cores.
+// makes them. Counters are the seconds of their phases. With --schedule FILE the last picture's loops and
+// tasks are recorded, for scripts/measure/model-cores.
 
 #include <benchmark/benchmark.h>
 
@@ -80,7 +80,8 @@ void make_picture(benchmark::State& state, const SceneCase& which, const NamedKi
   if (ready.row != row) {
     ready = {};
     ready.scene = std::make_unique<scene::Scene>(scene::load_gltf(file));
-    ready.renderer = std::make_unique<renderer::Renderer>(*ready.scene, options_of(which, kind.kind, threads));
+    ready.renderer =
+        std::make_unique<renderer::Renderer>(*ready.scene, options_of(which, kind.kind, threads));
     ready.row = row;
   }
   std::string record;

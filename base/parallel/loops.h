@@ -31,9 +31,8 @@ void for_each(std::size_t count, const Body& body, const char* file = __builtin_
 template <class Body>
 void for_each_range(std::size_t count, std::size_t grain, const Body& body,
                     const char* file = __builtin_FILE(), int line = __builtin_LINE()) {
-  for_each(
-      (count + grain - 1) / grain,
-      [&](std::size_t i) { body(i * grain, std::min(count, (i + 1) * grain)); }, file, line);
+  for_each((count + grain - 1) / grain,
+           [&](std::size_t i) { body(i * grain, std::min(count, (i + 1) * grain)); }, file, line);
 }
 
 }  // namespace gatelight

@@ -68,7 +68,8 @@ std::int64_t LoopRecord::enter_task() {
 }
 
 void LoopRecord::leave_task(std::int64_t start, std::size_t first, std::size_t end) {
-  const std::int64_t each = (now() - start) / static_cast<std::int64_t>(std::max<std::size_t>(end - first, 1));
+  const std::int64_t each =
+      (now() - start) / static_cast<std::int64_t>(std::max<std::size_t>(end - first, 1));
   for (std::size_t i = first; i < end; ++i) event_.tasks[i] = static_cast<std::uint32_t>(each);
   --tasks_entered;
 }

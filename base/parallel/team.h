@@ -17,7 +17,8 @@ namespace gatelight {
 /// A lead runs on the calling thread, and its loops are shared with the other threads of the arena. These do
 /// other tasks first, if there are any, and take part in the loops of the lead when no task is left; when the
 /// lead is done, its thread does tasks too. So both kinds of work go on at once, and no thread is idle while
-/// there is work that it could do. No thread waits for one that has not come: a single thread does everything.
+/// there is work that it could do. No thread waits for one that has not come: a single thread does
+/// everything.
 class Team {
  public:
   /// Runs lead(team), and task(i) for each i < tasks, begun in their order. Returns when all is done. Throws
@@ -26,8 +27,8 @@ class Team {
   static void run(const Lead& lead, std::size_t tasks, const Task& task, const char* file = __builtin_FILE(),
                   int line = __builtin_LINE());
 
-  /// For the lead: calls body(begin, end) for ranges that together are [0, count). How they are cut depends on
-  /// the threads; the smallest has one index.
+  /// For the lead: calls body(begin, end) for ranges that together are [0, count). How they are cut depends
+  /// on the threads; the smallest has one index.
   template <class Body>
   void for_each(std::uint32_t count, const Body& body, const char* file = __builtin_FILE(),
                 int line = __builtin_LINE());

@@ -1,5 +1,8 @@
 #include "neural/cpu/adam_table.h"
 
+#include <algorithm>
+
+#include "base/parallel/loops.h"
 #include "neural/learning/adam.h"
 
 namespace gatelight::neural::cpu {
@@ -12,7 +15,9 @@ KernelAdamStep adam_step(const TrainingOptions& options, std::uint64_t t) {
 
 std::vector<KernelAdamStep> adam_table(const TrainingOptions& options) {
   std::vector<KernelAdamStep> table(kAdamTableSteps + 1);
-  for (std::uint32_t t = 1; t <= kAdamTableSteps; ++t) table[t] = adam_step(options, t);
+  for_each_range(table.size(), 1024, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t t = std::max<std::size_t>(begin, 1); t < end; ++t) table[t] = adam_step(options, t);
+  });
   return table;
 }
 

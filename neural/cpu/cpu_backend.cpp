@@ -77,7 +77,8 @@ class CpuBackend final : public Backend {
   };
   void update(float scale, std::uint32_t chunks, const TrainingBatch& batch, Team& team,
               StepStatistics& statistics);
-  void update_bucket(std::uint32_t bucket, float scale, const std::uint32_t* record_steps, UpdateCounts& counts);
+  void update_bucket(std::uint32_t bucket, float scale, const std::uint32_t* record_steps,
+                     UpdateCounts& counts);
   std::vector<std::uint32_t> count_triangles(const TrainingBatch& batch);
   float* scratch(std::uint64_t floats) const;
 
@@ -255,9 +256,10 @@ void CpuBackend::update(float scale, std::uint32_t chunks, const TrainingBatch& 
     const FlushDenormals flush;
     UpdateCounts counts;
     if (begin < slices)
-      counts.skipped += network_.update(std::uint64_t{begin} * kSlice,
-                                        std::min(std::uint64_t{std::min(end, slices)} * kSlice, network_.size()),
-                                        chunk_gradients_.data(), chunks, scale, network_step);
+      counts.skipped +=
+          network_.update(std::uint64_t{begin} * kSlice,
+                          std::min(std::uint64_t{std::min(end, slices)} * kSlice, network_.size()),
+                          chunk_gradients_.data(), chunks, scale, network_step);
     for (std::uint32_t i = std::max(begin, slices); i < end; ++i)
       update_bucket(i - slices, scale, per_triangle ? record_steps.data() : nullptr, counts);
     touched += counts.touched;
@@ -309,7 +311,8 @@ NetworkPass CpuBackend::network_pass(std::span<const float> inputs, std::span<co
   StepStatistics statistics;
   Team::run(
       [&](Team& team) {
-        statistics = run_network({}, targets.data(), inputs.data(), static_cast<std::uint32_t>(records), false, team);
+        statistics =
+            run_network({}, targets.data(), inputs.data(), static_cast<std::uint32_t>(records), false, team);
       },
       0, [](std::size_t) {});
   return {statistics.loss, seconds_since(start)};

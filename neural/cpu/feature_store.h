@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "neural/cpu/huge_buffer.h"
+#include "base/platform/huge_buffer.h"
 #include "neural/cpu/kernels.h"
 #include "neural/model/state.h"
 

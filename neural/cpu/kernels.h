@@ -125,7 +125,7 @@ struct KernelTraining {
   uint32_t* nodes;           // [tile][node slot][kTile]; weight 0 means no reference
   float* weights;            // as `nodes`
   float* feature_gradients;  // [record][feature_inputs]; gradients of the sum of the losses
-  uint8_t* accepted;  // [record], or null
+  uint8_t* accepted;         // [record], or null
   // From the first chunk on: gradients of the network, gradient_size floats for each chunk, and statistics.
   float* gradients;
   uint64_t gradient_size;

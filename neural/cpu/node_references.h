@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "neural/cpu/huge_buffer.h"
+#include "base/platform/huge_buffer.h"
 #include "neural/cpu/kernels.h"
 
 namespace gatelight::neural::cpu {

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <span>
 
-#include "neural/cpu/huge_buffer.h"
+#include "base/platform/huge_buffer.h"
 #include "neural/cpu/kernels.h"
 #include "neural/model/model.h"
 

@@ -89,11 +89,11 @@ void CacheSession::look_at_answers(const RecordBatch& group) {
 }
 
 void CacheSession::begin(std::uint64_t step, std::uint64_t count, std::uint64_t first_sample, Group& group) {
-  const Clock::time_point begin = Clock::now();
+  const Clock::time_point start = Clock::now();
   group.request = request(step, count, first_sample);
   group.rays = records_->rays();  // before it
   records_->begin(group.request, group.records);
-  statistics_.train_trace_seconds += seconds_since(begin);
+  statistics_.train_trace_seconds += seconds_since(start);
 }
 
 void CacheSession::finish(Group& group) {
@@ -101,9 +101,9 @@ void CacheSession::finish(Group& group) {
   const bool threads = answers_threads();
   std::atomic<double> asked = 0.0;  // by all threads
   const auto ask = [&](const SurfacePoints& points, std::span<float> answers) {
-    const Clock::time_point begin = Clock::now();
+    const Clock::time_point start = Clock::now();
     ask_cache(*trainer_, neural::QueryPrecision::fp32, records_->units(setup_), points, answers);
-    asked += seconds_since(begin);
+    asked += seconds_since(start);
   };
   records_->finish({ask, threads}, group.records);
   const double answered = asked / (threads ? tbb::this_task_arena::max_concurrency() : 1);
@@ -149,18 +149,18 @@ void CacheSession::trace_and_learn(Group* next, Group* learning, const Watch& wa
       [&](Team& team) {
         if (!learning) return;
         if (ranks_) receive(*learning, watch);
-        const Clock::time_point begin = Clock::now();
+        const Clock::time_point start = Clock::now();
         for (std::uint64_t batch = 0; batch < learning->steps(); ++batch) {
           counts_.add(learning->records, batch, steps_);
           learn(learning->records, batch, team);
         }
-        statistics_.train_step_seconds += seconds_since(begin);
+        statistics_.train_step_seconds += seconds_since(start);
       },
       next ? next->records.starts.blocks() : 0,
       [&](std::size_t block) {
-        const Clock::time_point begin = Clock::now();
+        const Clock::time_point start = Clock::now();
         records_->trace(next->records, block);
-        traced += seconds_since(begin);
+        traced += seconds_since(start);
       });
   if (!next) return;
   RayCounts rays = records_->rays();

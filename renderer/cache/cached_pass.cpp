@@ -72,8 +72,7 @@ void CachedPass::run_tiles(int samples, Film& film, const std::function<void(dou
       const SurfacePoints& queries = tile.paths.queries;
       worker.answers.resize(session_.outputs() * queries.size());
       const Clock::time_point asked = Clock::now();
-      if (queries.size() > 0)
-        worker.statistics.negative_answers += session_.answer(queries, worker.answers);
+      if (queries.size() > 0) worker.statistics.negative_answers += session_.answer(queries, worker.answers);
       worker.statistics.render_query_seconds += seconds_since(asked);
       worker.statistics.queries += queries.size();
       worker.statistics.unstored_hits += tile.paths.unstored_hits;

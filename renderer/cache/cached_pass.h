@@ -1,6 +1,7 @@
 #pragma once
-// Passes of the integrators with a cache. A thread traces a tile up to its queries, answers them and finishes the
-// tile. A separate device needs many points at once: there many tiles are traced, answered together, and finished.
+// Passes of the integrators with a cache. A thread traces a tile up to its queries, answers them and finishes
+// the tile. A separate device needs many points at once: there many tiles are traced, answered together, and
+// finished.
 
 #include <functional>
 #include <span>

@@ -32,7 +32,10 @@ namespace {
 /// of the picture is missed by the former with a probability of 1e-14.
 constexpr std::size_t kPaths = std::size_t{1} << 15;
 constexpr std::size_t kCameraRays = std::size_t{1} << 17;
-/// No training step has this number, so scouting has random numbers of its own.
+constexpr std::size_t kCameraGroups = 8;
+/// Indices of a range of cheap work.
+constexpr std::size_t kPointsOfRange = 1024;
+/// No training steps have this number and those before it, so scouting has random numbers of its own.
 constexpr std::uint64_t kStep = ~std::uint64_t{0};
 
 /// Node spacing over the height of the picture (README.md, "Scene requirements"). Occlusion is sharper than
@@ -85,6 +88,15 @@ double robust_mean(const std::vector<double>& values) {
   return sum / static_cast<double>(values.size());
 }
 
+constexpr std::uint32_t kNoSurface = ~0u;
+
+/// A point that a scouting path hit.
+struct Sighted {
+  std::uint32_t surface = kNoSurface;
+  float width = 0.0f;  ///< of a pixel
+  float luminance = 0.0f;
+};
+
 void mark(std::vector<std::uint8_t>& met, std::uint32_t surface) {
   met[surface / 2] = static_cast<std::uint8_t>(met[surface / 2] | (1u << (surface % 2)));
 }
@@ -102,17 +114,29 @@ RenderOptions plain_options(const RenderOptions& options) {
 std::pair<double, double> scout_camera_rays(const World& world, const TrainingPoints& points, RayCounts& rays,
                                             Scouted& scouted) {
   TrainingStarts starts;
-  points.choose(kStep, kCameraRays, true, {}, starts, rays);
-  double hits = 0.0;
-  for (std::size_t i = 0; i < starts.starts.size(); ++i) {
-    const Hit& hit = starts.hits[i];
-    if (!hit) continue;
-    const CameraRay& camera_ray = starts.starts[i].sample.camera_ray;
-    mark(scouted.sides, surface_of_hit(world.scene, hit, camera_ray.ray.direction));
-    scouted.widths.add_camera(hit.instance, camera_ray.cone.width + camera_ray.cone.spread * hit.t);
-    ++hits;
+  double traced = 0.0, hits = 0.0;
+  // A group at a time, so that the memory of the starts is used again.
+  for (std::size_t group = 0; group < kCameraGroups; ++group) {
+    points.choose(kStep - group, kCameraRays / kCameraGroups, true, {}, starts, rays);
+    std::vector<Sighted> sighted(starts.starts.size());
+    for_each_range(sighted.size(), kPointsOfRange, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        const Hit& hit = starts.hits[i];
+        if (!hit) continue;
+        const CameraRay& camera_ray = starts.starts[i].sample.camera_ray;
+        sighted[i] = {surface_of_hit(world.scene, hit, camera_ray.ray.direction),
+                      camera_ray.cone.width + camera_ray.cone.spread * hit.t};
+      }
+    });
+    for (const Sighted& point : sighted) {
+      if (point.surface == kNoSurface) continue;
+      mark(scouted.sides, point.surface);
+      scouted.widths.add_camera(point.surface / 2, point.width);
+      ++hits;
+    }
+    traced += static_cast<double>(sighted.size());
   }
-  return {static_cast<double>(starts.starts.size()), hits};
+  return {traced, hits};
 }
 
 /// Numbers of records: of all paths, and of paths that end after the vertices of self-training.
@@ -145,7 +169,7 @@ void scout_paths(const World& world, const Camera& camera, const RenderOptions& 
   inputs.positions = true;
   RadianceRecords records(paths, points, plain, inputs);
   RecordBatch batch;
-  const RecordRequest request{.step = kStep - 1, .points = kPaths, .ranks = ranks};
+  const RecordRequest request{.step = kStep - kCameraGroups, .points = kPaths, .ranks = ranks};
   records.trace(request, batch);
   records.finish({}, batch);
   if (ranks) {
@@ -158,13 +182,20 @@ void scout_paths(const World& world, const Camera& camera, const RenderOptions& 
   const RecordCounts counts = count_records(batch, options.cache.self_training.vertices, ranks);
   const CameraRay eye =
       camera.ray(0.5f * static_cast<float>(options.width), 0.5f * static_cast<float>(options.height));
-  for (std::size_t i = 0; i < batch.records.size(); ++i) {
-    mark(scouted.sides, batch.records.surface(i));
-    const double l = static_cast<double>(luminance(Color(Eigen::Map<const Color>(&batch.targets[3 * i]))));
-    if (std::isfinite(l)) scouted.luminances.push_back(l);
-    const Eigen::Map<const Vec3> position(batch.records.batch().positions[i].data());
-    const float distance = (position - eye.ray.origin).norm();
-    scouted.widths.add_met(batch.records.surface(i) / 2, eye.cone.width + eye.cone.spread * distance);
+  std::vector<Sighted> sighted(batch.records.size());
+  const neural::QueryBatch met = batch.records.batch();
+  for_each_range(sighted.size(), kPointsOfRange, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const Eigen::Map<const Vec3> position(met.positions[i].data());
+      const float distance = (position - eye.ray.origin).norm();
+      sighted[i] = {met.surfaces[i], eye.cone.width + eye.cone.spread * distance,
+                    luminance(Color(Eigen::Map<const Color>(&batch.targets[3 * i])))};
+    }
+  });
+  for (const Sighted& point : sighted) {
+    mark(scouted.sides, point.surface);
+    if (std::isfinite(point.luminance)) scouted.luminances.push_back(static_cast<double>(point.luminance));
+    scouted.widths.add_met(point.surface / 2, point.width);
   }
   scouted.paths += static_cast<double>(batch.paths_traced);
   scouted.records += counts.all;

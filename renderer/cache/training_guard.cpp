@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/errors.h"
+#include "base/parallel/loops.h"
 #include "neural/learning/record_status.h"
 
 namespace gatelight::renderer {
@@ -59,13 +60,26 @@ void TrainingGuard::look_at_answers(std::span<const float> targets, const neural
   const double loss = group_loss / static_cast<double>(group_steps);
   group_loss = 0.0;
   group_steps = 0;
+  // Sums of ranges, so that they are the same for any number of threads.
+  constexpr std::size_t kRange = 4096;
+  struct Sums {
+    double bright = 0.0, ones = 0.0;
+  };
+  std::vector<Sums> sums((targets.size() + kRange - 1) / kRange);
+  for_each_range(targets.size(), kRange, [&](std::size_t begin, std::size_t end) {
+    Sums& here = sums[begin / kRange];
+    for (const float t : targets.subspan(begin, end - begin)) {
+      if (!std::isfinite(t)) continue;
+      const double target =
+          std::min(static_cast<double>(std::abs(t)), static_cast<double>(trainer.options().max_target));
+      here.bright += target;
+      here.ones += (target - 1.0) * (target - 1.0);
+    }
+  });
   double bright = 0.0, ones = 0.0;
-  for (const float t : targets) {
-    if (!std::isfinite(t)) continue;
-    const double target =
-        std::min(static_cast<double>(std::abs(t)), static_cast<double>(trainer.options().max_target));
-    bright += target;
-    ones += (target - 1.0) * (target - 1.0);
+  for (const Sums& part : sums) {
+    bright += part.bright;
+    ones += part.ones;
   }
   const double values = static_cast<double>(targets.size());
   brightest = std::max(brightest, bright / values);

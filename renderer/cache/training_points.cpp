@@ -1,11 +1,11 @@
 #include "renderer/cache/training_points.h"
 
-#include <tbb/parallel_for.h>
 #include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_sort.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numeric>
 
 #include "base/parallel/loops.h"
 #include "neural/learning/training_counts.h"
@@ -18,8 +18,15 @@
 namespace gatelight::renderer {
 namespace {
 
-/// Starts of a block.
-constexpr std::size_t kBlock = kTile * kTile;
+/// Indices of a range of cheap work.
+constexpr std::size_t kStartsOfRange = 256;
+
+/// Starts of a block, which one thread traces: those of a tile of the picture, or fewer where many threads
+/// would have none.
+std::size_t block_size(std::size_t count) {
+  constexpr std::size_t kMost = kTile * kTile, kFewest = 64, kBlocks = 64;
+  return std::clamp((count / kBlocks + 15) / 16 * 16, kFewest, kMost);
+}
 
 // Sampler dimensions of a start, beyond those of its path.
 constexpr std::uint32_t kSurfaceChoice = 0xffff0000u;
@@ -47,6 +54,28 @@ void key(const RenderOptions& options, std::uint32_t seed, std::size_t index, Pa
   start.sample.sampler = Sampler(options.sampler, seed, 0, 0, number);
   start.sample.seed = hash(hash(seed) + number);
   start.to_its_end = runs_to_its_end(index, options.cache.self_training.full_fraction, seed);
+}
+
+struct KeyedPlace {
+  std::uint32_t morton;
+  PixelSample place;
+};
+
+/// A stable radix sort. For the tens of thousands of places of a group it takes a tenth of a sort by
+/// comparison, which threads would have to share.
+void sort_by_morton(std::vector<KeyedPlace>& places) {
+  constexpr std::uint32_t kBits = 11;
+  std::uint32_t all = 0;
+  for (const KeyedPlace& p : places) all |= p.morton;
+  std::vector<KeyedPlace> sorted(places.size());
+  for (std::uint32_t shift = 0; shift < 32 && all >> shift != 0; shift += kBits) {
+    const auto digit = [shift](const KeyedPlace& p) { return p.morton >> shift & ((1u << kBits) - 1); };
+    std::array<std::uint32_t, (1u << kBits) + 1> next{};
+    for (const KeyedPlace& p : places) ++next[digit(p) + 1];
+    std::partial_sum(next.begin(), next.end(), next.begin());
+    for (const KeyedPlace& p : places) sorted[next[digit(p)]++] = p;
+    places.swap(sorted);
+  }
 }
 
 }  // namespace
@@ -92,9 +121,9 @@ void TrainingPoints::choose(std::uint64_t step, std::size_t count, bool need_hit
     const bool compare = options_.cache.candidates > 1 && !counts.empty();
     if (need_hits || compare || options_.cache.samples_per_point > 1) {
       result.hits.assign(result.starts.size(), {});
-      tbb::enumerable_thread_specific<RayCounts> counts;
-      for_each(result.blocks(), [&](std::size_t block) { trace(result, block, counts.local()); });
-      for (const RayCounts& count : counts) rays.add(count);
+      tbb::enumerable_thread_specific<RayCounts> parts;
+      for_each(result.blocks(), [&](std::size_t block) { trace(result, block, parts.local()); });
+      for (const RayCounts& part : parts) rays.add(part);
     }
   }
   if (options_.cache.candidates > 1 && !counts.empty()) prefer_seldom(step, counts, result);
@@ -103,31 +132,26 @@ void TrainingPoints::choose(std::uint64_t step, std::size_t count, bool need_hit
 
 void TrainingPoints::from_picture(std::uint64_t step, std::uint64_t first, std::size_t count,
                                   TrainingStarts& result) const {
-  struct KeyedPlace {
-    std::uint32_t morton;
-    PixelSample place;
-  };
   std::vector<KeyedPlace> places(count);
-  for_each_range(count, kBlock, [&](std::size_t begin, std::size_t end) {
+  for_each_range(count, kStartsOfRange, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const PixelSample place = order_.at(first + i);
       places[i] = {morton(place.pixel), place};
     }
   });
-  tbb::parallel_sort(places.begin(), places.end(), [](const KeyedPlace& a, const KeyedPlace& b) {
-    return std::pair(a.morton, a.place.number) < std::pair(b.morton, b.place.number);
-  });
+  sort_by_morton(places);  // samples of one pixel keep the order of their numbers
   result.starts.resize(count);
   result.samples.resize(count);
   // Samples of one pixel stay in one block: they are added to the film in order.
   result.offsets.assign(1, 0);
+  const std::size_t block = block_size(count);
   for (std::size_t end = 0; end < count;) {
-    end = std::min(end + kBlock, count);
+    end = std::min(end + block, count);
     while (end < count && places[end].morton == places[end - 1].morton) ++end;
     result.offsets.push_back(end);
   }
   const std::uint32_t seed = step_seed(options_, step);
-  for_each_range(count, kBlock, [&](std::size_t begin, std::size_t end) {
+  for_each_range(count, kStartsOfRange, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       result.samples[i] = places[i].place;
       result.starts[i] = {make_camera_sample(places[i].place, options_, camera_, filter_),
@@ -146,16 +170,20 @@ void TrainingPoints::from_camera(std::uint64_t step, std::size_t count, Training
   const float cell_height = static_cast<float>(region_.height()) / static_cast<float>(rows);
   const TileGrid tiles({0, 0, columns, rows});
   std::vector<std::vector<Pixel>> cells(static_cast<std::size_t>(tiles.count()));
+  std::vector<std::size_t> firsts(1, 0);
   result.offsets.assign(1, 0);
+  const std::size_t block = block_size(count);
   for (int t = 0; t < tiles.count(); ++t) {
     tiles.pixels(t, cells[static_cast<std::size_t>(t)]);
-    result.offsets.push_back(result.offsets.back() + cells[static_cast<std::size_t>(t)].size());
+    firsts.push_back(firsts.back() + cells[static_cast<std::size_t>(t)].size());
+    while (result.offsets.back() < firsts.back())
+      result.offsets.push_back(std::min(result.offsets.back() + block, firsts.back()));
   }
-  result.starts.resize(result.offsets.back());
+  result.starts.resize(firsts.back());
   const std::uint32_t seed = step_seed(options_, step);
   for_each(cells.size(), [&](std::size_t t) {
     for (std::size_t i = 0; i < cells[t].size(); ++i) {
-      const std::size_t index = result.offsets[t] + i;
+      const std::size_t index = firsts[t] + i;
       PathStart& start = result.starts[index];
       key(options_, seed, index, start);
       // Jitter by the pixel's own hash: neighbouring cells would line up in a low-discrepancy sequence.
@@ -174,32 +202,35 @@ void TrainingPoints::from_surfaces(std::uint64_t step, std::size_t count, Traini
   result.starts.resize(count);
   result.hits.resize(count);
   result.offsets.assign(1, 0);
-  for (std::size_t begin = 0; begin < count; begin += kBlock)
-    result.offsets.push_back(std::min(begin + kBlock, count));
+  const std::size_t block = block_size(count);
+  for (std::size_t begin = 0; begin < count; begin += block)
+    result.offsets.push_back(std::min(begin + block, count));
   const std::uint32_t seed = step_seed(options_, step);
-  tbb::parallel_for(std::size_t{0}, count, [&](std::size_t index) {
-    PathStart& start = result.starts[index];
-    key(options_, seed, index, start);
-    start.on_surface = true;
-    const Sampler& sampler = start.sample.sampler;
-    const double u = (static_cast<double>(index) + static_cast<double>(sampler.get_1d(kSurfaceChoice))) /
-                     static_cast<double>(count);
-    const Triangle& triangle = triangles_[by_area_.sample(std::min(u, 0x1.fffffffffffffp-1))];
-    const scene::Instance& instance = scene.instances[triangle.instance];
-    const Vec2 point = sample_uniform_triangle(sampler.get_2d(kSurfacePoint));
-    const std::array<Vec3, 3> corners = scene::world_triangle(scene, instance, triangle.primitive);
-    float twice_area = 0.0f;
-    const Vec3 normal = scene::triangle_normal(corners[0], corners[1], corners[2], twice_area);
-    const bool back = triangle.sides == 2 || (triangle.sides == 3 && (hash(start.sample.seed) & 1u) != 0);
-    const Vec3 wo = Basis(back ? Vec3(-normal) : normal)
-                        .to_world(sample_cosine_hemisphere(sampler.get_2d(kSurfaceDirection)));
-    Hit& hit = result.hits[index];
-    hit = {1.0f, point.x(), point.y(), triangle.instance, triangle.primitive};
-    CameraRay& ray = start.sample.camera_ray;
-    ray = {};
-    ray.ray.origin =
-        corners[0] + point.x() * (corners[1] - corners[0]) + point.y() * (corners[2] - corners[0]) + wo;
-    ray.ray.direction = -wo;
+  for_each_range(count, kStartsOfRange, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t index = begin; index < end; ++index) {
+      PathStart& start = result.starts[index];
+      key(options_, seed, index, start);
+      start.on_surface = true;
+      const Sampler& sampler = start.sample.sampler;
+      const double u = (static_cast<double>(index) + static_cast<double>(sampler.get_1d(kSurfaceChoice))) /
+                       static_cast<double>(count);
+      const Triangle& triangle = triangles_[by_area_.sample(std::min(u, 0x1.fffffffffffffp-1))];
+      const scene::Instance& instance = scene.instances[triangle.instance];
+      const Vec2 point = sample_uniform_triangle(sampler.get_2d(kSurfacePoint));
+      const std::array<Vec3, 3> corners = scene::world_triangle(scene, instance, triangle.primitive);
+      float twice_area = 0.0f;
+      const Vec3 normal = scene::triangle_normal(corners[0], corners[1], corners[2], twice_area);
+      const bool back = triangle.sides == 2 || (triangle.sides == 3 && (hash(start.sample.seed) & 1u) != 0);
+      const Vec3 wo = Basis(back ? Vec3(-normal) : normal)
+                          .to_world(sample_cosine_hemisphere(sampler.get_2d(kSurfaceDirection)));
+      Hit& hit = result.hits[index];
+      hit = {1.0f, point.x(), point.y(), triangle.instance, triangle.primitive};
+      CameraRay& ray = start.sample.camera_ray;
+      ray = {};
+      ray.ray.origin =
+          corners[0] + point.x() * (corners[1] - corners[0]) + point.y() * (corners[2] - corners[0]) + wo;
+      ray.ray.direction = -wo;
+    }
   });
 }
 
@@ -225,14 +256,16 @@ void TrainingPoints::prefer_seldom(std::uint64_t step, std::span<const std::uint
   const std::size_t size = result.starts.size();
   const std::uint32_t seed = step_seed(options_, step);
   std::vector<std::uint32_t> numbers(size, kNoTriangle);
-  tbb::parallel_for(std::size_t{0}, size, [&](std::size_t i) {
-    if (result.hits[i])
-      numbers[i] = triangle_number(result.hits[i], result.starts[i].sample.camera_ray.ray.direction);
+  for_each_range(size, kStartsOfRange, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      if (result.hits[i])
+        numbers[i] = triangle_number(result.hits[i], result.starts[i].sample.camera_ray.ray.direction);
+    }
   });
   const std::vector<PathStart> pool = result.starts;
   const std::vector<Hit> hits = result.hits;
   const auto most = static_cast<std::size_t>(options_.cache.candidates);
-  tbb::parallel_for(std::size_t{0}, size, [&](std::size_t i) {
+  const auto choose_one = [&](std::size_t i) {
     std::vector<std::uint32_t> candidates;
     std::vector<std::size_t> places;
     std::uint32_t random = hash(hash(seed ^ kCandidateChoice) + static_cast<std::uint32_t>(i));
@@ -249,6 +282,9 @@ void TrainingPoints::prefer_seldom(std::uint64_t step, std::span<const std::uint
         neural::choose_candidate(candidates, counts, sampling::to_unit_float(hash(random)));
     result.starts[i].sample.camera_ray = pool[places[chosen]].sample.camera_ray;
     result.hits[i] = hits[places[chosen]];
+  };
+  for_each_range(size, kStartsOfRange, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) choose_one(i);
   });
 }
 

@@ -44,8 +44,8 @@ class TrainingPoints {
               TrainingStarts& result, RayCounts& rays,
               const std::optional<std::uint64_t>& first_sample = {}) const;
 
-  /// Finds the hits of the starts in a block. `starts.hits` has room for all. Blocks may be traced at the same
-  /// time.
+  /// Finds the hits of the starts in a block. `starts.hits` has room for all. Blocks may be traced at the
+  /// same time.
   void trace(TrainingStarts& starts, std::size_t block, RayCounts& rays) const;
 
   static constexpr std::uint32_t kNoTriangle = ~0u;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "base/parallel/loops.h"
+
 namespace gatelight::renderer {
 namespace {
 
@@ -24,7 +26,13 @@ int rows_of_band(int width, int height, const ScaleDown& scale) {
          scale.factor();
 }
 
-std::optional<DenoisedRows> denoise_rows(const Denoiser& denoiser, const NoisyPicture& picture,
+void prepare_denoise(Denoiser& denoiser, int width, int height, const FilterOptions& options, bool guides,
+                     const ScaleDown& scale) {
+  if (rows_of_band(width, height, scale) * scale.factor() >= height)
+    denoiser.prepare(width, height, options, guides);
+}
+
+std::optional<DenoisedRows> denoise_rows(Denoiser& denoiser, const NoisyPicture& picture,
                                          const RowsToDenoise& rows, const FilterOptions& options,
                                          const ScaleDown& scale, const DenoiseProgress& progress) {
   const int margin = rows.margin + scale.reach();
@@ -37,21 +45,25 @@ std::optional<DenoisedRows> denoise_rows(const Denoiser& denoiser, const NoisyPi
   }
   if (picture.alpha) image.alpha = picture.alpha(top, bottom);
   if (!denoiser.filter(image, options, progress)) return std::nullopt;
-  for (float& value : image.color) value = std::isfinite(value) ? std::max(value, 0.0f) : 0.0f;
-  const auto scaled = [&](const std::vector<float>& values, int channels) {
+  for_each_range(image.color.size(), 1 << 14, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      image.color[i] = std::isfinite(image.color[i]) ? std::max(image.color[i], 0.0f) : 0.0f;
+  });
+  const bool whole = scale.factor() == 1 && rows.begin == top && rows.end == bottom;
+  const auto scaled = [&](std::vector<float>& values, int channels) {
+    if (whole || values.empty()) return std::move(values);
     return scale.scale(values, channels, picture.width, picture.height, top, rows.begin, rows.end);
   };
-  return DenoisedRows{scaled(image.color, 3),
-                      image.albedo.empty() ? std::vector<float>() : scaled(image.albedo, 3),
-                      image.alpha.empty() ? std::vector<float>() : scaled(image.alpha, 1)};
+  return DenoisedRows{scaled(image.color, 3), scaled(image.albedo, 3), scaled(image.alpha, 1)};
 }
 
-std::optional<DenoisedRows> denoise(const Denoiser& denoiser, const NoisyPicture& picture,
-                                    FilterOptions options, const ScaleDown& scale,
-                                    const DenoiseProgress& progress) {
+std::optional<DenoisedRows> denoise(Denoiser& denoiser, const NoisyPicture& picture, FilterOptions options,
+                                    const ScaleDown& scale, const DenoiseProgress& progress) {
   options.scale = exposure_of(picture.width, picture.height, picture.color);
+  prepare_denoise(denoiser, picture.width, picture.height, options, picture.albedo && picture.normal, scale);
   const int rows = picture.height / scale.factor();
   const int step = rows_of_band(picture.width, picture.height, scale);
+  if (step >= rows) return denoise_rows(denoiser, picture, {0, rows}, options, scale, progress);
   DenoisedRows all;
   for (int begin = 0; begin < rows; begin += step) {
     const int end = std::min(begin + step, rows);

@@ -36,7 +36,7 @@ struct RowsToDenoise {
 
 /// Some denoised rows. With the usual margin each is that of the whole picture but for rounding. Empty where
 /// `progress` cancelled.
-std::optional<DenoisedRows> denoise_rows(const Denoiser& denoiser, const NoisyPicture& picture,
+std::optional<DenoisedRows> denoise_rows(Denoiser& denoiser, const NoisyPicture& picture,
                                          const RowsToDenoise& rows, const FilterOptions& options,
                                          const ScaleDown& scale, const DenoiseProgress& progress = {});
 
@@ -44,9 +44,12 @@ std::optional<DenoisedRows> denoise_rows(const Denoiser& denoiser, const NoisyPi
 /// those of the picture before scaling.
 int rows_of_band(int width, int height, const ScaleDown& scale);
 
+/// Sets up what denoise() needs for a picture that is taken at a time (Denoiser::prepare).
+void prepare_denoise(Denoiser& denoiser, int width, int height, const FilterOptions& options, bool guides,
+                     const ScaleDown& scale);
+
 /// All rows, with exposure_of() the picture as FilterOptions::scale.
-std::optional<DenoisedRows> denoise(const Denoiser& denoiser, const NoisyPicture& picture,
-                                    FilterOptions options, const ScaleDown& scale,
-                                    const DenoiseProgress& progress = {});
+std::optional<DenoisedRows> denoise(Denoiser& denoiser, const NoisyPicture& picture, FilterOptions options,
+                                    const ScaleDown& scale, const DenoiseProgress& progress = {});
 
 }  // namespace gatelight::renderer

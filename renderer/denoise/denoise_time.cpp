@@ -25,8 +25,7 @@ NoisyImage image_of_noise(int width, int height) {
 
 }  // namespace
 
-double expect_denoise_seconds(const Denoiser& denoiser, const DenoiseOptions& options, int width,
-                              int height) {
+double expect_denoise_seconds(Denoiser& denoiser, const DenoiseOptions& options, int width, int height) {
   NoisyImage image = image_of_noise(std::min(width, kEdge), std::min(height, kEdge));
   const double share =
       static_cast<double>(image.width) * image.height / (static_cast<double>(width) * height);

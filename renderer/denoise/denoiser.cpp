@@ -42,58 +42,6 @@ bool has_guides(const NoisyImage& image) {
   return !image.albedo.empty() && !image.normal.empty();
 }
 
-/// A filter of the kind "RT". The images that it was given must outlive its execution.
-class RayTracingFilter {
- public:
-  RayTracingFilter(const oidn::Api& api, oidn::Device device, const NoisyImage& size,
-                   std::size_t memory_limit_bytes)
-      : api_(api),
-        device_(device),
-        filter_(api.NewFilter(device, "RT"), api.ReleaseFilter),
-        width_(size.width),
-        height_(size.height) {
-    check();
-    if (memory_limit_bytes > 0) set_int("maxMemoryMB", std::max(mebibytes(memory_limit_bytes), 1));
-  }
-
-  void set_image(const char* name, std::vector<float>& pixels) {
-    api_.SetSharedFilterImage(filter_.get(), name, pixels.data(), oidn::kFloat3,
-                              static_cast<std::size_t>(width_), static_cast<std::size_t>(height_), 0, 0, 0);
-  }
-  void set_bool(const char* name, bool value) { api_.SetFilterBool(filter_.get(), name, value); }
-  void set_int(const char* name, int value) { api_.SetFilterInt(filter_.get(), name, value); }
-  void set_float(const char* name, float value) { api_.SetFilterFloat(filter_.get(), name, value); }
-
-  /// False where the progress cancelled it.
-  bool execute(Progress progress) {
-    const schedule::Section section("oidn");
-    api_.SetFilterProgressMonitorFunction(filter_.get(), monitor, &progress);
-    api_.CommitFilter(filter_.get());
-    check();
-    api_.ExecuteFilter(filter_.get());
-    return check() && !progress.cancelled;
-  }
-
- private:
-  /// False where the last call was cancelled.
-  bool check() const {
-    const char* message = nullptr;
-    const int error = api_.GetDeviceError(device_, &message);
-    if (error == oidn::kNoError) return true;
-    if (error == oidn::kCancelled) return false;
-    const std::string text =
-        fmt::format("denoising {}x{} pixels: {}", width_, height_, message ? message : "no reason");
-    if (error == oidn::kOutOfMemory) throw OutOfMemory(text);
-    throw MissingDenoiser(text);
-  }
-
-  const oidn::Api& api_;
-  oidn::Device device_;
-  std::unique_ptr<oidn::FilterHandle, void (*)(oidn::Filter)> filter_;
-  int width_;
-  int height_;
-};
-
 }  // namespace
 
 std::string failure_to_denoise(const std::function<void()>& run) {
@@ -108,6 +56,62 @@ std::string failure_to_denoise(const std::function<void()>& run) {
     return "denoising it needs more memory than there is";
   }
 }
+
+/// A filter of the kind "RT" for images of one size. Making one takes as long as filtering a few hundred rows
+/// on many cores, and ending the last one gives its memory back to the system; so they are kept.
+class Denoiser::Filter {
+ public:
+  Filter(const oidn::Api& api, oidn::Device device, const FilterKind& kind, std::size_t memory_limit_bytes)
+      : api_(api), device_(device), kind_(kind), filter_(api.NewFilter(device, "RT"), api.ReleaseFilter) {
+    check();
+    if (memory_limit_bytes > 0)
+      api_.SetFilterInt(filter_.get(), "maxMemoryMB", std::max(mebibytes(memory_limit_bytes), 1));
+    // The larger network gains nothing for guides, and takes twice the time (README.md).
+    api_.SetFilterInt(filter_.get(), "quality", kind.fast ? oidn::kFast : oidn::kHigh);
+    if (kind.plane != FilterKind::Plane::color) return;
+    api_.SetFilterBool(filter_.get(), "hdr", true);
+    if (kind.guides) api_.SetFilterBool(filter_.get(), "cleanAux", kind.clean_guides);
+  }
+
+  const FilterKind& kind() const { return kind_; }
+  /// The pixels must outlive execute().
+  void set_image(const char* name, const std::vector<float>& pixels) {
+    api_.SetSharedFilterImage(filter_.get(), name, const_cast<float*>(pixels.data()), oidn::kFloat3,
+                              static_cast<std::size_t>(kind_.width), static_cast<std::size_t>(kind_.height),
+                              0, 0, 0);
+  }
+  void set_scale(float scale) { api_.SetFilterFloat(filter_.get(), "inputScale", scale); }
+  void commit() {
+    api_.CommitFilter(filter_.get());
+    check();
+  }
+  /// False where the progress cancelled it.
+  bool execute(Progress progress) {
+    const schedule::Section section("oidn");
+    api_.SetFilterProgressMonitorFunction(filter_.get(), monitor, &progress);
+    commit();
+    api_.ExecuteFilter(filter_.get());
+    return check() && !progress.cancelled;
+  }
+
+ private:
+  /// False where the last call was cancelled.
+  bool check() const {
+    const char* message = nullptr;
+    const int error = api_.GetDeviceError(device_, &message);
+    if (error == oidn::kNoError) return true;
+    if (error == oidn::kCancelled) return false;
+    const std::string text =
+        fmt::format("denoising {}x{} pixels: {}", kind_.width, kind_.height, message ? message : "no reason");
+    if (error == oidn::kOutOfMemory) throw OutOfMemory(text);
+    throw MissingDenoiser(text);
+  }
+
+  const oidn::Api& api_;
+  oidn::Device device_;
+  FilterKind kind_;
+  std::unique_ptr<oidn::FilterHandle, void (*)(oidn::Filter)> filter_;
+};
 
 Denoiser::Denoiser(const OidnLibrary& library, int threads, std::size_t memory_limit_bytes)
     : api_(library.api),
@@ -124,17 +128,76 @@ Denoiser::Denoiser(const OidnLibrary& library, int threads, std::size_t memory_l
     throw MissingDenoiser(fmt::format("'{}': {}", library.path, message ? message : "no device"));
 }
 
-bool Denoiser::filter(NoisyImage& image, const FilterOptions& options,
-                      const DenoiseProgress& progress) const {
+Denoiser::~Denoiser() = default;
+
+Denoiser::Filter& Denoiser::filter_of(const FilterKind& kind) {
+  constexpr std::size_t kMost = 8;  // a picture has three sizes: a band, the last one, and a strip
+  const auto found = std::find_if(filters_.begin(), filters_.end(),
+                                  [&](const auto& filter) { return filter->kind() == kind; });
+  if (found != filters_.end()) {
+    std::rotate(filters_.begin(), found, found + 1);  // the last used comes first
+  } else {
+    filters_.insert(filters_.begin(),
+                    std::make_unique<Filter>(api_, device_.get(), kind, memory_limit_bytes_));
+    if (filters_.size() > kMost) filters_.pop_back();
+  }
+  return *filters_.front();
+}
+
+void Denoiser::prepare(int width, int height, const FilterOptions& options, bool guides) {
+  const std::lock_guard lock(mutex_);
+  const std::vector<float> none(3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+  // The largest comes first: all of them share its memory.
+  const auto make = [&](FilterKind::Plane plane) {
+    Filter& filter = filter_of(kind_of(plane, width, height, options, guides));
+    set_images(filter, none, none, none);
+    filter.commit();
+  };
+  make(FilterKind::Plane::color);
+  if (!guides || options.prefilter != Prefilter::accurate) return;
+  make(FilterKind::Plane::albedo);
+  make(FilterKind::Plane::normal);
+}
+
+FilterKind Denoiser::kind_of(FilterKind::Plane plane, int width, int height, const FilterOptions& options,
+                             bool guides) {
+  const bool color = plane == FilterKind::Plane::color;
+  return {plane,           width,
+          height,          !color || options.quality == DenoiseQuality::fast,
+          color && guides, color && guides && options.prefilter != Prefilter::fast};
+}
+
+void Denoiser::set_images(Filter& filter, const std::vector<float>& plane, const std::vector<float>& albedo,
+                          const std::vector<float>& normal) {
+  constexpr const char* kNames[] = {"color", "albedo", "normal"};
+  filter.set_image(kNames[static_cast<std::size_t>(filter.kind().plane)], plane);
+  filter.set_image("output", plane);
+  if (!filter.kind().guides) return;
+  filter.set_image("albedo", albedo);
+  filter.set_image("normal", normal);
+}
+
+bool Denoiser::filter(NoisyImage& image, const FilterOptions& options, const DenoiseProgress& progress) {
   if (image.width <= 0 || image.height <= 0) return true;
+  const std::lock_guard lock(mutex_);
+  bool complete = false;
+  try {
+    complete = filter_all(image, options, progress);
+  } catch (...) {
+    filters_.clear();
+    throw;
+  }
+  if (!complete) filters_.clear();  // where one has stopped is unknown
+  return complete;
+}
+
+bool Denoiser::filter_all(NoisyImage& image, const FilterOptions& options, const DenoiseProgress& progress) {
   double begin = 0.0;
   if (options.prefilter == Prefilter::accurate && has_guides(image)) {
-    for (const auto& [name, guide] : {std::pair("albedo", &image.albedo), {"normal", &image.normal}}) {
-      RayTracingFilter filter(api_, device_.get(), image, memory_limit_bytes_);
-      filter.set_image(name, *guide);
-      filter.set_image("output", *guide);
-      // The larger network gains nothing here, and takes twice the time (README.md).
-      filter.set_int("quality", oidn::kFast);
+    for (const auto& [plane, guide] :
+         {std::pair(FilterKind::Plane::albedo, &image.albedo), {FilterKind::Plane::normal, &image.normal}}) {
+      Filter& filter = filter_of(kind_of(plane, image.width, image.height, options, true));
+      set_images(filter, *guide, {}, {});
       if (!filter.execute({progress, begin, begin + kShareOfGuide})) return false;
       begin += kShareOfGuide;
     }
@@ -144,24 +207,17 @@ bool Denoiser::filter(NoisyImage& image, const FilterOptions& options,
          (image.alpha.empty() || filter_alpha(image, options, progress, end));
 }
 
-bool Denoiser::filter_plane(std::vector<float>& color, NoisyImage& guides, const FilterOptions& options,
-                            const DenoiseProgress& progress, double begin, double end) const {
-  RayTracingFilter filter(api_, device_.get(), guides, memory_limit_bytes_);
-  filter.set_image("color", color);
-  filter.set_image("output", color);
-  if (has_guides(guides)) {
-    filter.set_image("albedo", guides.albedo);
-    filter.set_image("normal", guides.normal);
-    filter.set_bool("cleanAux", options.prefilter != Prefilter::fast);
-  }
-  filter.set_bool("hdr", true);
-  filter.set_float("inputScale", options.scale);
-  filter.set_int("quality", options.quality == DenoiseQuality::fast ? oidn::kFast : oidn::kHigh);
+bool Denoiser::filter_plane(std::vector<float>& color, const NoisyImage& guides, const FilterOptions& options,
+                            const DenoiseProgress& progress, double begin, double end) {
+  Filter& filter =
+      filter_of(kind_of(FilterKind::Plane::color, guides.width, guides.height, options, has_guides(guides)));
+  set_images(filter, color, guides.albedo, guides.normal);
+  filter.set_scale(options.scale);
   return filter.execute({progress, begin, end});
 }
 
 bool Denoiser::filter_alpha(NoisyImage& image, const FilterOptions& options, const DenoiseProgress& progress,
-                            double begin) const {
+                            double begin) {
   std::vector<float> color;
   color.reserve(3 * image.alpha.size());
   for (const float a : image.alpha) color.insert(color.end(), 3, a);

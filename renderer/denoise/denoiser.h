@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,18 @@ struct FilterOptions {
   float scale = 1.0f;
 };
 
+/// The images that a filter is made for.
+struct FilterKind {
+  enum class Plane : std::uint8_t { color, albedo, normal };
+  Plane plane = Plane::color;
+  int width = 0;
+  int height = 0;
+  bool fast = false;          ///< the smaller network
+  bool guides = false;        ///< of `color`
+  bool clean_guides = false;  ///< they are denoised
+  bool operator==(const FilterKind&) const = default;
+};
+
 /// Called with the share that is done, in [0, 1]; false cancels.
 using DenoiseProgress = std::function<bool(double done)>;
 
@@ -42,19 +55,30 @@ class Denoiser {
   /// Filters use `threads` threads. `memory_limit_bytes` limits the memory of a filter, at the cost of time;
   /// 0: the library's own limit. The library must outlive the object. Throws MissingDenoiser.
   Denoiser(const OidnLibrary& library, int threads, std::size_t memory_limit_bytes = 0);
+  ~Denoiser();
 
   /// Replaces colours and alpha by denoised ones, and the guides by denoised ones if they are filtered. Alpha
   /// stays 0 or 1 where all pixels around are. The same bits for any number of threads. Returns false where
   /// `progress` cancelled; the image is then undefined. Throws OutOfMemory, or MissingDenoiser with the
   /// library's message. Source: "RT" filter, "Open Image Denoise API".
-  bool filter(NoisyImage& image, const FilterOptions& options, const DenoiseProgress& progress = {}) const;
+  bool filter(NoisyImage& image, const FilterOptions& options, const DenoiseProgress& progress = {});
+  /// Sets up what filter() needs for images of this size, with or without guides: one thread works for some
+  /// tens of milliseconds, which can be done beside other work. Throws as filter() does.
+  void prepare(int width, int height, const FilterOptions& options, bool guides);
 
  private:
+  class Filter;
+  Filter& filter_of(const FilterKind& kind);
+  static FilterKind kind_of(FilterKind::Plane plane, int width, int height, const FilterOptions& options,
+                            bool guides);
+  static void set_images(Filter& filter, const std::vector<float>& plane, const std::vector<float>& albedo,
+                         const std::vector<float>& normal);
+  bool filter_all(NoisyImage& image, const FilterOptions& options, const DenoiseProgress& progress);
   /// Filters `color`, 3 floats a pixel, in place.
-  bool filter_plane(std::vector<float>& color, NoisyImage& guides, const FilterOptions& options,
-                    const DenoiseProgress& progress, double begin, double end) const;
+  bool filter_plane(std::vector<float>& color, const NoisyImage& guides, const FilterOptions& options,
+                    const DenoiseProgress& progress, double begin, double end);
   bool filter_alpha(NoisyImage& image, const FilterOptions& options, const DenoiseProgress& progress,
-                    double begin) const;
+                    double begin);
 
   struct Release {
     void (*function)(oidn::Device);
@@ -64,6 +88,8 @@ class Denoiser {
   const oidn::Api& api_;
   std::unique_ptr<oidn::DeviceHandle, Release> device_;
   std::size_t memory_limit_bytes_;
+  std::mutex mutex_;
+  std::vector<std::unique_ptr<Filter>> filters_;  ///< the last used comes first
 };
 
 }  // namespace gatelight::renderer

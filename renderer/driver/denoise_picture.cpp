@@ -21,7 +21,7 @@ void set_colors(Layer& layer, const std::vector<float>& color) {
 
 }  // namespace
 
-std::optional<Picture> denoise_picture(Picture picture, const Samples& samples, const Denoiser& denoiser,
+std::optional<Picture> denoise_picture(Picture picture, const Samples& samples, Denoiser& denoiser,
                                        const DenoisePictureOptions& options,
                                        const DenoiseProgress& progress) {
   const ScaleDown scale(samples.factor, options.filter, options.filter_width);

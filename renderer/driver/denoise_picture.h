@@ -23,7 +23,7 @@ struct DenoisePictureOptions {
 /// Aov::denoising it is the finished picture, bit for bit. These layers are left out, all others stay. Empty
 /// where `progress` cancelled. Runs in the caller's arena. Throws what Denoiser::filter() and put_before()
 /// throw.
-std::optional<Picture> denoise_picture(Picture picture, const Samples& samples, const Denoiser& denoiser,
+std::optional<Picture> denoise_picture(Picture picture, const Samples& samples, Denoiser& denoiser,
                                        const DenoisePictureOptions& options,
                                        const DenoiseProgress& progress = {});
 

@@ -32,7 +32,7 @@ using CaughtShadows = std::function<std::vector<float>(const PixelRect& rect)>;
 /// How a film becomes a picture.
 struct Finishing {
   const RenderOptions& options;        ///< of the film
-  const Denoiser* denoiser = nullptr;  ///< null: the means of the samples
+  Denoiser* denoiser = nullptr;  ///< null: the means of the samples
   ScaleDown scale;                     ///< from the film to the picture
   CaughtShadows shadows;               ///< empty: none
   DenoiseProgress progress;            ///< false cancels denoising

@@ -1,5 +1,7 @@
 #include "renderer/driver/picture_run.h"
 
+#include <tbb/task_group.h>
+
 #include <algorithm>
 #include <chrono>
 #include <memory>
@@ -36,6 +38,7 @@ class PictureRun {
         film_(context.picture.make_film()) {}
 
   ~PictureRun() {
+    context_.picture.arena.execute([&] { beside_.wait(); });
     if (memory_ && training_) training_->hand_on(*memory_);
   }
 
@@ -113,6 +116,8 @@ class PictureRun {
     limit_passes(loop);
     if (training_ && training_->stopped()) loop.stop();
     if (is_good_enough(loop)) return;
+    if (ranks_.first())
+      context_.picture.arena.execute([&] { beside_.run([&] { prepare_to_finish(context_.picture); }); });
     while (loop.done() < options_.spp) {
       if (!run_pass(loop) || loop.done() == options_.spp) return;
       limit_passes(loop);
@@ -215,6 +220,7 @@ class PictureRun {
   Film film_;
   std::optional<PictureCheckpoint> checkpoint_;
   TimeBudget budget_;
+  tbb::task_group beside_;  ///< work for a thread that is free
   Cryptomattes mattes_;
   std::unique_ptr<Training> training_;  ///< null without a cache
   std::string device_lost_;             ///< why, where that ended the passes

@@ -118,6 +118,15 @@ FinishedPicture finish(const RenderContext& context, Film& film, bool stopped, R
   return finished;
 }
 
+void prepare_to_finish(const PreparedPicture& picture) {
+  if (!picture.denoiser) return;
+  const RenderOptions& options = picture.options;
+  failure_to_denoise([&] {  // finish() reports it
+    prepare_denoise(*picture.denoiser, picture.region.width(), picture.region.height(),
+                    {.prefilter = options.denoise.prefilter}, true, picture.scale);
+  });
+}
+
 double expect_finish_seconds(const RenderContext& context) {
   const PreparedPicture& picture = context.picture;
   const double seconds =

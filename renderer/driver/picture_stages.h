@@ -19,6 +19,9 @@ Cryptomattes make_cryptomattes(const RenderContext& context, double& seconds);
 FinishedPicture finish(const RenderContext& context, Film& film, bool stopped, RenderStatistics& statistics,
                        FrameMemory* memory = nullptr);
 
+/// Sets up what finish() needs, by one thread beside other work.
+void prepare_to_finish(const PreparedPicture& picture);
+
 /// The expected time of finish() under a time limit.
 double expect_finish_seconds(const RenderContext& context);
 

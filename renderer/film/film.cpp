@@ -1,9 +1,13 @@
 #include "renderer/film/film.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cassert>
 #include <cmath>
+#include <type_traits>
 #include <utility>
+
+#include "base/parallel/loops.h"
 
 namespace gatelight::renderer {
 
@@ -23,12 +27,18 @@ void accumulate(std::array<Number, 3>& sum, const Vector& v) {
 FilmSums empty_sums(const FilmContents& contents, std::size_t pixels) {
   const std::vector<Aov>& aovs = contents.aovs;
   FilmSums sums;
-  sums.radiance.resize(pixels);
-  if (contents.half) sums.half.resize(pixels);
-  if (contents.guides) sums.guides.resize(pixels);
-  if (contents.alpha) sums.alpha.resize(pixels);
-  if (std::any_of(aovs.begin(), aovs.end(), from_first_hit)) sums.first_hits.resize(pixels);
-  sums.light_groups.resize(pixels * contents.light_groups.size());
+  const auto keep = [](auto& plane, std::size_t size) { plane = std::decay_t<decltype(plane)>(size); };
+  keep(sums.radiance, pixels);
+  if (contents.half) keep(sums.half, pixels);
+  if (contents.guides) keep(sums.guides, pixels);
+  if (contents.alpha) keep(sums.alpha, pixels);
+  if (std::any_of(aovs.begin(), aovs.end(), from_first_hit)) {
+    keep(sums.first_hits, pixels);
+    for_each_range(pixels, 4096, [&](std::size_t begin, std::size_t end) {
+      std::fill(sums.first_hits.begin() + begin, sums.first_hits.begin() + end, FirstHitSum());
+    });
+  }
+  if (!contents.light_groups.empty()) keep(sums.light_groups, pixels * contents.light_groups.size());
   return sums;
 }
 
@@ -136,9 +146,13 @@ double Film::variance_of_mean(const RadianceSum& p, std::size_t channel) {
 }
 
 double Film::samples_per_pixel() const {
-  double sum = 0.0;
-  for (const RadianceSum& p : sums_.radiance) sum += p.count;
-  return sum / static_cast<double>(sums_.radiance.size());
+  std::atomic<std::uint64_t> sum = 0;
+  for_each_range(sums_.radiance.size(), 1 << 14, [&](std::size_t begin, std::size_t end) {
+    std::uint64_t part = 0;
+    for (std::size_t i = begin; i < end; ++i) part += sums_.radiance[i].count;
+    sum += part;
+  });
+  return static_cast<double>(sum) / static_cast<double>(sums_.radiance.size());
 }
 
 float Film::contribution_threshold(const Pixel& p) const {

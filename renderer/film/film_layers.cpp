@@ -72,8 +72,8 @@ Layer Film::layer(Aov aov, Range range) const {
     layer.channels = std::move(channels);
     fill(layer, range, value);
   };
-  const std::vector<FirstHitSum>& first = sums_.first_hits;
-  const std::vector<RadianceSum>& radiance = sums_.radiance;
+  const HugeBuffer<FirstHitSum>& first = sums_.first_hits;
+  const HugeBuffer<RadianceSum>& radiance = sums_.radiance;
   for (const VectorLayer& v : kVectors) {
     if (v.aov != aov) continue;
     fill_with({std::string(1, v.channels[0]), std::string(1, v.channels[1]), std::string(1, v.channels[2])},

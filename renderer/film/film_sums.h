@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <span>
 #include <type_traits>
-#include <vector>
 
+#include "base/platform/huge_buffer.h"
 #include "renderer/distributed/packing.h"
 
 namespace gatelight::renderer {
@@ -52,14 +52,15 @@ struct FirstHitSum {
   float primitive = -1.0f;
 };
 
-/// Planes in rows from the top; one that is not kept is empty.
+/// Planes in rows from the top; one that is not kept is empty. New ones are zero, whose memory the first
+/// samples touch.
 struct FilmSums {
-  std::vector<RadianceSum> radiance;
-  std::vector<HalfSum> half;
-  std::vector<GuideSum> guides;
-  std::vector<double> alpha;
-  std::vector<FirstHitSum> first_hits;
-  std::vector<std::array<double, 3>> light_groups;  ///< all groups of a pixel, then those of the next
+  HugeBuffer<RadianceSum> radiance;
+  HugeBuffer<HalfSum> half;
+  HugeBuffer<GuideSum> guides;
+  HugeBuffer<double> alpha;
+  HugeBuffer<FirstHitSum> first_hits;
+  HugeBuffer<std::array<double, 3>> light_groups;  ///< all groups of a pixel, then those of the next
 
   /// Calls visit(name, plane) for each plane of `sums`, a FilmSums or a const one.
   template <class Sums, class Visit>

@@ -22,7 +22,7 @@ class Denoising : public ::testing::Test {
   void SetUp() override { GATELIGHT_NEEDS_DENOISER(); }
 
   static std::vector<float> denoised(const NoisyImage& image) {
-    static const Denoiser denoiser(load_oidn(testing::denoiser_place()), 2);
+    static Denoiser denoiser(load_oidn(testing::denoiser_place()), 2);
     const auto rows = [&image](const std::vector<float>& plane) -> ReadRows {
       return [&plane, row = static_cast<std::ptrdiff_t>(3) * image.width](int first, int end) {
         return std::vector<float>(plane.begin() + first * row, plane.begin() + end * row);

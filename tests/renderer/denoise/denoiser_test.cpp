@@ -69,7 +69,7 @@ TEST_F(Denoisers, DoNotDependOnTheUnitOfLight) {
 }
 
 TEST_F(Denoisers, CanBeCancelled) {
-  const Denoiser denoiser(load_oidn(testing::denoiser_place()), 2);
+  Denoiser denoiser(load_oidn(testing::denoiser_place()), 2);
   NoisyImage image = noisy_image(256, 256);
   double last = 0.0;
   EXPECT_FALSE(denoiser.filter(image, {}, [&](double done) {

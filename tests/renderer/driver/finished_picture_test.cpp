@@ -67,7 +67,7 @@ TEST_P(FinishedPicture, IsDenoisedAndItsSamplesStayLayers) {
 /// `gatelight denoise` gives the same picture from the layers.
 TEST_P(FinishedPicture, IsReproducedFromItsLayersToTheBit) {
   GATELIGHT_NEEDS_DENOISER();
-  const Denoiser denoiser(load_oidn(testing::denoiser_place()), 2);
+  Denoiser denoiser(load_oidn(testing::denoiser_place()), 2);
   for (const Prefilter prefilter : {Prefilter::accurate, Prefilter::none, Prefilter::fast}) {
     for (const int supersampling : {1, 2}) {
       for (const Kind background : {Kind::scene, Kind::transparent, Kind::color}) {

@@ -1,4 +1,4 @@
-#include "neural/cpu/huge_buffer.h"
+#include "base/platform/huge_buffer.h"
 
 #include <sys/mman.h>
 
@@ -7,7 +7,7 @@
 #include <limits>
 #include <new>
 
-namespace gatelight::neural::cpu::detail {
+namespace gatelight::detail {
 
 namespace {
 #if defined(MADV_HUGEPAGE)
@@ -45,4 +45,4 @@ void* map_huge(std::size_t bytes) {
   return aligned;
 }
 
-}  // namespace gatelight::neural::cpu::detail
+}  // namespace gatelight::detail
