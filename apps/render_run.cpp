@@ -19,6 +19,7 @@
 #include "apps/terminal/terminal.h"
 #include "apps/terminal/text.h"
 #include "base/errors.h"
+#include "base/parallel/loops.h"
 #include "renderer/denoise/oidn_library.h"
 #include "renderer/distributed/collectives.h"
 #include "renderer/film/memory_estimate.h"
@@ -150,15 +151,17 @@ void RenderRun::write_pictures(renderer::Picture picture, const renderer::Render
   warn_of_glare(picture, image.display, suitable);
   report_.exposure = image.display.exposure;
   picture.metadata.merge(make_recipe(settings_, report_.command, statistics, seconds_since(start_)));
-  std::exception_ptr first_error;
-  for (const std::string& output : outputs) {
+  std::vector<std::exception_ptr> errors(outputs.size());
+  for_each(outputs.size(), [&](std::size_t i) {
     try {
-      write_picture(picture, output, image);
+      write_picture(picture, outputs[i], image);
     } catch (...) {
-      if (!first_error) first_error = std::current_exception();
+      errors[i] = std::current_exception();
     }
+  });
+  for (const std::exception_ptr& error : errors) {
+    if (error) std::rethrow_exception(error);
   }
-  if (first_error) std::rethrow_exception(first_error);
 }
 
 void RenderRun::warn_of_glare(const renderer::Picture& picture, const renderer::DisplayOptions& display,

@@ -4,7 +4,6 @@
 
 #include <benchmark/benchmark.h>
 
-#include <fstream>
 #include <memory>
 #include <string>
 
@@ -32,7 +31,6 @@ constexpr NamedKind kKinds[] = {{"paths", Kind::paths},
                                 {"standard", Kind::standard},
                                 {"final", Kind::final}};
 
-/// `samples` and `steps`: of paths and bare.
 renderer::RenderOptions options_of(const SceneCase& which, Kind kind, int threads) {
   renderer::RenderOptions options;
   switch (kind) {
@@ -94,7 +92,7 @@ void make_picture(benchmark::State& state, const SceneCase& which, const NamedKi
       record = recording.json(threads);
     }
   }
-  if (!record.empty()) std::ofstream(schedule_file()) << record;
+  if (!record.empty()) write_schedule(record);
   const renderer::RenderStatistics& s = ready.renderer->statistics();
   state.counters["scout"] = s.cache.scout_seconds;
   state.counters["setup"] = s.cache.setup_seconds;

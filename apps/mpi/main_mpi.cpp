@@ -13,6 +13,7 @@
 #include "apps/terminal/signals.h"
 #include "apps/terminal/terminal.h"
 #include "base/platform/flush_denormals.h"
+#include "base/platform/numa.h"
 
 namespace gatelight::apps {
 namespace {
@@ -72,6 +73,7 @@ int main(int argc, char** argv) {
   using namespace gatelight;
   // TBB copies this state to its threads at its first use.
   const gatelight::FlushDenormals flush;
+  interleave_memory();
   std::set_terminate(apps::end_program);
   apps::ignore_write_signals();
   try {

@@ -116,7 +116,7 @@ PicturePointer denoise(const py::object& color, const py::object& albedo, const 
     const tbb::global_control control(tbb::global_control::max_allowed_parallelism,
                                       static_cast<std::size_t>(threads));
     tbb::task_arena arena(threads);
-    const renderer::Denoiser denoiser(oidn, threads, options.memory_limit_bytes);
+    renderer::Denoiser denoiser(oidn, threads, options.memory_limit_bytes);
     const renderer::Samples samples = renderer::samples_of(data->picture);
     std::optional<renderer::Picture> finished = arena.execute([&] {
       return renderer::denoise_picture(std::move(data->picture), samples, denoiser,

@@ -1,7 +1,6 @@
 #include "neural/layout/budget.h"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <bit>
@@ -12,6 +11,7 @@
 #include <utility>
 
 #include "base/errors.h"
+#include "base/parallel/loops.h"
 
 namespace gatelight::neural {
 
@@ -27,7 +27,7 @@ float power_of_two(int exponent) {
 double coordinate_bound(const PlanScene& scene) {
   const SurfaceLayout& surfaces = scene.surfaces;
   std::vector<Double3> mesh_bounds(surfaces.meshes.size());
-  tbb::parallel_for(std::size_t{0}, surfaces.meshes.size(), [&](std::size_t m) {
+  for_each(surfaces.meshes.size(), [&](std::size_t m) {
     Double3 bound = {0, 0, 0};
     for (const Float3& p : surfaces.meshes[m].positions)
       for (int c = 0; c < 3; ++c) bound[c] = std::max(bound[c], std::abs(double{p[c]}));

@@ -1,15 +1,14 @@
 #include "neural/layout/build_gate_layout.h"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <limits>
 #include <optional>
 
 #include "base/errors.h"
+#include "base/parallel/loops.h"
 #include "neural/layout/budget.h"
-#include "neural/layout/index_range.h"
 #include "neural/layout/layout_checks.h"
 #include "neural/layout/mesh_colors.h"
 #include "neural/layout/plan.h"
@@ -110,8 +109,8 @@ struct RowPart {
 void write_rows(const TopologyTable& table, std::size_t triangles, std::span<const RowPart> parts,
                 std::uint32_t* topology) {
   const std::uint32_t stride = table.stride();
-  tbb::parallel_for(IndexRange(0, triangles, 16384), [&](const IndexRange& range) {
-    for (std::size_t t = range.begin(); t != range.end(); ++t) {
+  for_each_range(triangles, 16384, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t t = begin; t != end; ++t) {
       std::uint32_t* const row = topology + table.offset + t * stride;
       for (const RowPart& part : parts)
         for (std::uint32_t c = 0; c < 3; ++c) {
@@ -170,9 +169,8 @@ void number_instance(const PlanScene& scene, const LayoutPlan& plan, const Topol
     parts[i].numbers = number(i);
     if (finest == parts.size()) continue;
     std::vector<std::uint32_t> of_vertices(parts[finest].numbers.size());
-    tbb::parallel_for(IndexRange(0, of_vertices.size(), 16384), [&](const IndexRange& range) {
-      for (std::size_t v = range.begin(); v != range.end(); ++v)
-        of_vertices[v] = parts[i].numbers[parts[finest].numbers[v]];
+    for_each_range(of_vertices.size(), 16384, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t v = begin; v != end; ++v) of_vertices[v] = parts[i].numbers[parts[finest].numbers[v]];
     });
     parts[i].numbers = std::move(of_vertices);
   }
@@ -184,7 +182,7 @@ void write_topology(const PlanScene& scene, const LayoutPlan& plan, const Topolo
   const bool merged = clusters_scene(plan.density);
   SceneNumbers scene_numbers;
   if (merged) scene_numbers = number_scene(scene, plan);
-  tbb::parallel_for(std::size_t{0}, tables.tables.size(), [&](std::size_t i) {
+  for_each(tables.tables.size(), [&](std::size_t i) {
     const TopologyTable& table = tables.tables[i];
     const MeshTopology& mesh = scene.meshes[table.mesh];
     std::vector<RowPart> parts;

@@ -1,15 +1,13 @@
 #include "neural/layout/clusters.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <atomic>
 #include <bit>
 #include <cmath>
 
+#include "base/parallel/loops.h"
 #include "base/random.h"
 #include "neural/layout/cluster_table.h"
-#include "neural/layout/index_range.h"
 #include "neural/layout/prefix_sum.h"
 
 namespace gatelight::neural {
@@ -92,12 +90,12 @@ template <class OnKey>
 bool insert_vertices(std::span<const ClusterInstance> instances, const ClusterGrid& grid, std::uint64_t limit,
                      ClusterTable& table, std::atomic<std::uint64_t>& count, const OnKey& on_key) {
   std::atomic<bool> over = false;
-  tbb::parallel_for(std::size_t{0}, instances.size(), [&](std::size_t i) {
+  for_each(instances.size(), [&](std::size_t i) {
     const ClusterKeys key(instances[i], grid);
-    tbb::parallel_for(IndexRange(0, vertex_count(instances[i]), kClusterGrain), [&](const IndexRange& range) {
+    for_each_range(vertex_count(instances[i]), kClusterGrain, [&](std::size_t begin, std::size_t end) {
       if (over.load(std::memory_order_relaxed)) return;
       std::uint64_t fresh = 0;
-      for (std::size_t v = range.begin(); v != range.end(); ++v) {
+      for (std::size_t v = begin; v != end; ++v) {
         const ClusterTable::Place place = table.insert(key(v));
         if (place.inserted == ClusterTable::Inserted::fresh) ++fresh;
         if (place.inserted == ClusterTable::Inserted::full)
@@ -158,17 +156,16 @@ std::vector<std::vector<std::uint32_t>> number_clusters(std::span<const ClusterI
     return ~first_vertices[slots[vertex]].load(std::memory_order_relaxed);
   };
   std::vector<std::uint32_t> numbers(slots.size());
-  const IndexRange vertices(0, numbers.size(), kClusterGrain);
-  tbb::parallel_for(vertices, [&](const IndexRange& range) {
-    for (std::size_t v = range.begin(); v != range.end(); ++v) numbers[v] = first_vertex(v) == v ? 1 : 0;
+  const std::size_t vertices = numbers.size();
+  for_each_range(vertices, kClusterGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t v = begin; v != end; ++v) numbers[v] = first_vertex(v) == v ? 1 : 0;
   });
   inclusive_prefix_sum(numbers);  // at a cluster's first vertex: the cluster's number plus one
   std::vector<std::vector<std::uint32_t>> result(instances.size());
-  tbb::parallel_for(std::size_t{0}, instances.size(), [&](std::size_t i) {
+  for_each(instances.size(), [&](std::size_t i) {
     result[i].resize(offsets[i + 1] - offsets[i]);
-    tbb::parallel_for(IndexRange(0, result[i].size(), kClusterGrain), [&](const IndexRange& range) {
-      for (std::size_t v = range.begin(); v != range.end(); ++v)
-        result[i][v] = numbers[first_vertex(offsets[i] + v)] - 1;
+    for_each_range(result[i].size(), kClusterGrain, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t v = begin; v != end; ++v) result[i][v] = numbers[first_vertex(offsets[i] + v)] - 1;
     });
   });
   return result;

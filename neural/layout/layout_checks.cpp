@@ -1,7 +1,6 @@
 #include "neural/layout/layout_checks.h"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 #include <tbb/parallel_reduce.h>
 
 #include <algorithm>
@@ -11,6 +10,7 @@
 #include <vector>
 
 #include "base/errors.h"
+#include "base/parallel/loops.h"
 #include "base/require.h"
 #include "neural/layout/index_range.h"
 
@@ -99,7 +99,7 @@ void check_surfaces(const SurfaceLayout& surfaces) {
   }
   // The first wrong mesh is reported, independent of the schedule.
   std::vector<std::string> messages(surfaces.meshes.size());
-  tbb::parallel_for(std::size_t{0}, surfaces.meshes.size(), [&](std::size_t m) {
+  for_each(surfaces.meshes.size(), [&](std::size_t m) {
     try {
       check_mesh(surfaces.meshes[m], m);
     } catch (const BadConfiguration& error) {

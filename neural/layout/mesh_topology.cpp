@@ -1,11 +1,10 @@
 #include "neural/layout/mesh_topology.h"
 
-#include <tbb/parallel_for.h>
 #include <tbb/parallel_sort.h>
 
 #include <atomic>
 
-#include "neural/layout/index_range.h"
+#include "base/parallel/loops.h"
 #include "neural/layout/prefix_sum.h"
 
 namespace gatelight::neural {
@@ -49,22 +48,22 @@ void list_edges(const MeshTopology& topology, std::uint32_t vertex, std::vector<
 MeshTopology number_vertices(const SurfaceMesh& mesh) {
   MeshTopology topology;
   std::vector<std::uint32_t> numbers(mesh.positions.size(), 0);
-  const IndexRange triangles(0, mesh.triangles.size(), kGrain);
-  tbb::parallel_for(triangles, [&](const IndexRange& range) {
-    for (std::size_t t = range.begin(); t != range.end(); ++t)
+  const std::size_t triangles = mesh.triangles.size();
+  for_each_range(triangles, kGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t t = begin; t != end; ++t)
       for (const std::uint32_t v : mesh.triangles[t])
         std::atomic_ref(numbers[v]).store(1, std::memory_order_relaxed);
   });
   inclusive_prefix_sum(numbers);  // for a used position: the vertex's number plus one
   topology.vertices.resize(numbers.empty() ? 0 : numbers.back());
-  tbb::parallel_for(IndexRange(0, numbers.size(), kGrain), [&](const IndexRange& range) {
-    for (std::size_t p = range.begin(); p != range.end(); ++p)
+  for_each_range(numbers.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t p = begin; p != end; ++p)
       if (numbers[p] != (p == 0 ? 0 : numbers[p - 1]))
         topology.vertices[numbers[p] - 1] = static_cast<std::uint32_t>(p);
   });
   topology.triangles.resize(mesh.triangles.size());
-  tbb::parallel_for(triangles, [&](const IndexRange& range) {
-    for (std::size_t t = range.begin(); t != range.end(); ++t)
+  for_each_range(triangles, kGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t t = begin; t != end; ++t)
       for (int c = 0; c < 3; ++c) topology.triangles[t][c] = numbers[mesh.triangles[t][c]] - 1;
   });
   return topology;
@@ -76,9 +75,9 @@ void add_edges(MeshTopology& topology) {
   const std::size_t vertex_count = topology.vertices.size();
   std::vector<std::uint32_t> ends(vertex_count + 1, 0);  // after the sum: the number of edges before vertex v
   const auto for_vertices = [&](const auto& body) {
-    tbb::parallel_for(IndexRange(0, vertex_count, kGrain), [&](const IndexRange& range) {
+    for_each_range(vertex_count, kGrain, [&](std::size_t begin, std::size_t end) {
       std::vector<HalfEdge> edges;
-      for (std::size_t v = range.begin(); v != range.end(); ++v) {
+      for (std::size_t v = begin; v != end; ++v) {
         list_edges(topology, static_cast<std::uint32_t>(v), edges);
         body(v, edges);
       }
@@ -112,8 +111,8 @@ void add_normals(MeshTopology& topology, const SurfaceMesh& mesh) {
     return;
   }
   add_corners(topology);
-  tbb::parallel_for(IndexRange(0, topology.vertices.size(), kGrain), [&](const IndexRange& range) {
-    for (std::size_t v = range.begin(); v != range.end(); ++v) {
+  for_each_range(topology.vertices.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t v = begin; v != end; ++v) {
       const VertexCorners& around = *topology.corners;
       Double3 sum = {0, 0, 0};
       for (std::uint32_t a = around.offsets[v]; a < around.offsets[v + 1]; ++a)

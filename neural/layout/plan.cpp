@@ -1,7 +1,6 @@
 #include "neural/layout/plan.h"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <atomic>
@@ -9,6 +8,7 @@
 #include <cmath>
 
 #include "base/errors.h"
+#include "base/parallel/loops.h"
 #include "neural/layout/mesh_colors.h"
 #include "neural/layout/resolution.h"
 #include "neural/layout/surface_areas.h"
@@ -75,8 +75,8 @@ void add_to_meshes(PlanScene& scene, std::span<const std::size_t> stored, const 
   for (const std::size_t s : stored) numbers.push_back(mesh_of(scene, s));
   std::ranges::sort(numbers);
   numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
-  tbb::parallel_for(std::size_t{0}, numbers.size(),
-                    [&](std::size_t i) { add(scene.meshes[numbers[i]], scene.surfaces.meshes[numbers[i]]); });
+  for_each(numbers.size(),
+           [&](std::size_t i) { add(scene.meshes[numbers[i]], scene.surfaces.meshes[numbers[i]]); });
 }
 
 /// All groups of levels of one instance.
@@ -102,7 +102,7 @@ bool cluster_instances(const PlanScene& scene, std::span<const Clusterable> clus
   std::atomic<std::uint64_t> nodes = counted;
   std::atomic<bool> over = false;
   const std::vector<ClusterableInstance> instances = by_instance(clusterable);
-  tbb::parallel_for(std::size_t{0}, instances.size(), [&](std::size_t i) {
+  for_each(instances.size(), [&](std::size_t i) {
     const auto [stored, groups] = instances[i];
     const std::uint64_t sides = side_count(instance_of(scene, stored).sides);
     const std::uint64_t vertices = scene.meshes[mesh_of(scene, stored)].vertices.size();
@@ -272,13 +272,13 @@ PlanScene make_plan_scene(const SurfaceLayout& surfaces, const GateOptions& opti
   }
   if (options.storage == NodeStorage::shared) {
     scene.meshes.resize(surfaces.meshes.size());
-    tbb::parallel_for(std::size_t{0}, used.size(), [&](std::size_t m) {
+    for_each(used.size(), [&](std::size_t m) {
       if (used[m] != 0) scene.meshes[m] = number_vertices(surfaces.meshes[m]);
     });
   }
   std::vector<SurfaceAreas> areas(scene.stored.size());
   if (options.rule != ResolutionRule::fixed && std::ranges::any_of(options.stack, is_adaptive))
-    tbb::parallel_for(std::size_t{0}, areas.size(), [&](std::size_t s) {
+    for_each(areas.size(), [&](std::size_t s) {
       const SurfaceInstance& instance = instance_of(scene, s);
       areas[s] = measure_areas(surfaces.meshes[instance.mesh], to_transform(instance.object_to_world));
     });

@@ -1,11 +1,10 @@
 #include "neural/layout/vertex_corners.h"
 
-#include <tbb/parallel_for.h>
 #include <tbb/parallel_sort.h>
 
 #include <atomic>
 
-#include "neural/layout/index_range.h"
+#include "base/parallel/loops.h"
 #include "neural/layout/prefix_sum.h"
 
 namespace gatelight::neural {
@@ -16,14 +15,14 @@ VertexCorners build_vertex_corners(std::span<const TriangleCorners> triangles, s
   result.corners.resize(3 * triangles.size());
   std::vector<std::uint32_t>& offsets = result.offsets;
   // The sums are the ends of the lists; the scatter counts each down to its beginning.
-  tbb::parallel_for(IndexRange(0, triangles.size(), kGrain), [&](const IndexRange& range) {
-    for (std::size_t t = range.begin(); t != range.end(); ++t)
+  for_each_range(triangles.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t t = begin; t != end; ++t)
       for (const std::uint32_t v : triangles[t])
         std::atomic_ref(offsets[v]).fetch_add(1, std::memory_order_relaxed);
   });
   inclusive_prefix_sum(offsets);
-  tbb::parallel_for(IndexRange(0, triangles.size(), kGrain), [&](const IndexRange& range) {
-    for (std::size_t t = range.begin(); t != range.end(); ++t)
+  for_each_range(triangles.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t t = begin; t != end; ++t)
       for (std::uint32_t c = 0; c < 3; ++c) {
         const std::uint32_t slot =
             std::atomic_ref(offsets[triangles[t][c]]).fetch_sub(1, std::memory_order_relaxed) - 1;
@@ -31,8 +30,8 @@ VertexCorners build_vertex_corners(std::span<const TriangleCorners> triangles, s
       }
   });
   // The order of the scatter depends on the threads, so the lists are sorted.
-  tbb::parallel_for(IndexRange(0, vertex_count, kGrain), [&](const IndexRange& range) {
-    for (std::size_t v = range.begin(); v != range.end(); ++v) {
+  for_each_range(vertex_count, kGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t v = begin; v != end; ++v) {
       tbb::parallel_sort(result.corners.begin() + offsets[v], result.corners.begin() + offsets[v + 1]);
     }
   });

@@ -1,4 +1,3 @@
-#include <tbb/parallel_for.h>
 
 #include <fmt/format.h>
 
@@ -11,8 +10,9 @@
 
 #include "base/errors.h"
 #include "base/random.h"
-#include "neural/layout/index_range.h"
 #include "neural/layout/surface_layout.h"
+
+#include "base/parallel/loops.h"
 
 namespace gatelight::neural {
 
@@ -44,8 +44,8 @@ std::vector<std::uint32_t> weld_vertices(std::span<const Float3> positions) {
   std::vector<std::atomic<std::uint64_t>> slots(std::bit_ceil(positions.size() + positions.size() / 2 + 1));
   const std::uint64_t mask = slots.size() - 1;
   std::vector<std::uint32_t> first(positions.size());
-  tbb::parallel_for(IndexRange(0, positions.size(), 8192), [&](const IndexRange& range) {
-    for (std::size_t i = range.begin(); i != range.end(); ++i) {
+  for_each_range(positions.size(), 8192, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i != end; ++i) {
       const Bits bits = position_bits(positions[i]);
       const std::uint64_t key = hash(bits);
       const std::uint64_t tag = key & 0xffffffff00000000u;
@@ -64,8 +64,8 @@ std::vector<std::uint32_t> weld_vertices(std::span<const Float3> positions) {
       }
     }
   });
-  tbb::parallel_for(IndexRange(0, positions.size(), 8192), [&](const IndexRange& range) {
-    for (std::size_t i = range.begin(); i != range.end(); ++i)
+  for_each_range(positions.size(), 8192, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i != end; ++i)
       first[i] = static_cast<std::uint32_t>(slots[first[i]].load(std::memory_order_relaxed)) - 1;
   });
   return first;

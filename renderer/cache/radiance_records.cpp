@@ -79,19 +79,9 @@ void RadianceRecords::trace(RecordBatch& batch, std::size_t block) {
 }
 
 template <class Points, class Use>
-void RadianceRecords::ask(const AnswerPoints& answer, RecordBatch& batch, const Points& points,
-                          const Use& use) const {
+void RadianceRecords::ask_together(const AnswerPoints& answer, RecordBatch& batch, const Points& points,
+                                   const Use& use) const {
   const std::size_t blocks = batch.paths.size();
-  if (answer.threads) {
-    return for_each(blocks, [&](std::size_t block) {
-      SurfacePoints own(inputs_);
-      const SurfacePoints& asked = points(batch.paths[block], own);
-      std::vector<float> answers(3 * asked.size());
-      if (asked.size() > 0) answer.ask(asked, answers);
-      use(std::span<float>(answers), block);
-    });
-  }
-  // A device needs the points of all blocks at once.
   std::vector<SurfacePoints> own(blocks, SurfacePoints(inputs_));
   std::vector<const SurfacePoints*> asked(blocks);
   for_each(blocks, [&](std::size_t block) { asked[block] = &points(batch.paths[block], own[block]); });
@@ -111,19 +101,36 @@ void RadianceRecords::ask(const AnswerPoints& answer, RecordBatch& batch, const 
 void RadianceRecords::finish(const AnswerPoints& answer, RecordBatch& batch) {
   const bool samples = !batch.starts.samples.empty();
   batch.radiance.resize(batch.starts.samples.size());
-  ask(
-      answer, batch,
-      [](const PathBatch& paths, SurfacePoints&) -> const SurfacePoints& { return paths.queries; },
-      [&](std::span<float> answers, std::size_t block) { resolve(answers, batch, block); });
-  if (!samples) return;
-  ask(
-      answer, batch,
-      [](const PathBatch& paths, SurfacePoints& ends) -> const SurfacePoints& {
-        ends.resize(paths.count_ends());
-        paths.copy_ends(ends, 0);
-        return ends;
-      },
-      [&](std::span<float> answers, std::size_t block) { end_samples(answers, batch, block); });
+  const auto queries = [](const PathBatch& paths, SurfacePoints&) -> const SurfacePoints& {
+    return paths.queries;
+  };
+  const auto ends = [](const PathBatch& paths, SurfacePoints& own) -> const SurfacePoints& {
+    own.resize(paths.count_ends());
+    paths.copy_ends(own, 0);
+    return own;
+  };
+  const auto resolve_block = [&](std::span<float> answers, std::size_t block) {
+    resolve(answers, batch, block);
+  };
+  const auto end_block = [&](std::span<const float> answers, std::size_t block) {
+    batch.paths[block].end_samples(answers, std::span(batch.radiance).subspan(batch.starts.offsets[block]));
+  };
+  if (!answer.threads) {  // a device, which needs the points of all blocks at once
+    ask_together(answer, batch, queries, resolve_block);
+    if (samples) ask_together(answer, batch, ends, end_block);
+    return;
+  }
+  for_each(batch.paths.size(), [&](std::size_t block) {
+    const auto ask = [&](const auto& points, const auto& use) {
+      SurfacePoints own(inputs_);
+      const SurfacePoints& asked = points(batch.paths[block], own);
+      std::vector<float> answers(3 * asked.size());
+      if (asked.size() > 0) answer.ask(asked, answers);
+      use(std::span<float>(answers), block);
+    };
+    ask(queries, resolve_block);
+    if (samples) ask(ends, end_block);
+  });
 }
 
 void RadianceRecords::resolve(std::span<float> answers, RecordBatch& batch, std::size_t block) const {
@@ -141,10 +148,6 @@ void RadianceRecords::resolve(std::span<float> answers, RecordBatch& batch, std:
   paths.resolve(answers, radiance);
   const auto times = static_cast<std::size_t>(options_.cache.samples_per_point);
   if (times > 1) paths.average_first_records(times);
-}
-
-void RadianceRecords::end_samples(std::span<const float> answers, RecordBatch& batch, std::size_t block) {
-  batch.paths[block].end_samples(answers, std::span(batch.radiance).subspan(batch.starts.offsets[block]));
 }
 
 RayCounts RadianceRecords::rays() const {

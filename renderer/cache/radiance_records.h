@@ -28,12 +28,11 @@ class RadianceRecords : public RecordSource {
  private:
   /// Sums up the paths of a block, whose queries have these answers.
   void resolve(std::span<float> answers, RecordBatch& batch, std::size_t block) const;
-  /// Ends the picture's samples of a block in the cache, at the same vertices as its other samples.
-  static void end_samples(std::span<const float> answers, RecordBatch& batch, std::size_t block);
-  /// Asks for the points of each block, and calls use(answers, block). points(paths, own) returns them; it
-  /// may put them into `own`.
+  /// Asks for the points of all blocks at once, and calls use(answers, block) for each. points(paths, own)
+  /// returns those of a block; it may put them into `own`.
   template <class Points, class Use>
-  void ask(const AnswerPoints& answer, RecordBatch& batch, const Points& points, const Use& use) const;
+  void ask_together(const AnswerPoints& answer, RecordBatch& batch, const Points& points,
+                    const Use& use) const;
 
   const CachedPaths& paths_;
   const TrainingPoints& points_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include "base/parallel/loops.h"
@@ -38,12 +39,18 @@ std::optional<DenoisedRows> denoise_rows(Denoiser& denoiser, const NoisyPicture&
   const int margin = rows.margin + scale.reach();
   const int top = std::max(rows.begin * scale.factor() - margin, 0) / kAlignment * kAlignment;
   const int bottom = std::min(rows.end * scale.factor() + margin, picture.height);
-  NoisyImage image{picture.width, bottom - top, picture.color(top, bottom)};
-  if (picture.albedo && picture.normal) {
-    image.albedo = picture.albedo(top, bottom);
-    image.normal = picture.normal(top, bottom);
-  }
-  if (picture.alpha) image.alpha = picture.alpha(top, bottom);
+  NoisyImage image{picture.width, bottom - top};
+  const bool guides = picture.albedo && picture.normal;
+  const std::pair<const ReadRows*, std::vector<float>*> planes[] = {
+      {&picture.color, &image.color},
+      {guides ? &picture.albedo : nullptr, &image.albedo},
+      {guides ? &picture.normal : nullptr, &image.normal},
+      {picture.alpha ? &picture.alpha : nullptr, &image.alpha}};
+  // At the same time, because one thread touches the memory of each.
+  for_each(std::size(planes), [&](std::size_t i) {
+    const auto& [read, plane] = planes[i];
+    if (read != nullptr) *plane = (*read)(top, bottom);
+  });
   if (!denoiser.filter(image, options, progress)) return std::nullopt;
   for_each_range(image.color.size(), 1 << 14, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)

@@ -5,14 +5,16 @@
 #include <numeric>
 
 #include "base/math.h"
+#include "base/parallel/loops.h"
 
 namespace gatelight::renderer {
 namespace {
 
 constexpr int kBin = 16;
 
-/// Appends the mean luminance of each bin of some rows.
-void add_bins(const std::vector<float>& color, int width, int height, std::vector<double>& means) {
+/// The mean luminance of each bin of some rows.
+std::vector<double> means_of_bins(const std::vector<float>& color, int width, int height) {
+  std::vector<double> means;
   for (int top = 0; top < height; top += kBin) {
     for (int left = 0; left < width; left += kBin) {
       double sum = 0.0;
@@ -27,18 +29,21 @@ void add_bins(const std::vector<float>& color, int width, int height, std::vecto
       means.push_back(sum / pixels);
     }
   }
+  return means;
 }
 
 }  // namespace
 
 float exposure_of(int width, int height, const ReadRows& color) {
-  constexpr int kRows = 16 * kBin;
+  constexpr int kRows = 2 * kBin;
   constexpr double kKey = 0.18, kBlack = 1e-8;
+  std::vector<std::vector<double>> parts(static_cast<std::size_t>((height + kRows - 1) / kRows));
+  for_each(parts.size(), [&](std::size_t part) {
+    const int top = static_cast<int>(part) * kRows, end = std::min(top + kRows, height);
+    parts[part] = means_of_bins(color(top, end), width, end - top);
+  });
   std::vector<double> means;
-  for (int top = 0; top < height; top += kRows) {
-    const int end = std::min(top + kRows, height);
-    add_bins(color(top, end), width, end - top, means);
-  }
+  for (const std::vector<double>& part : parts) means.insert(means.end(), part.begin(), part.end());
   // A picture that is dim everywhere is not black.
   const double all = std::accumulate(means.begin(), means.end(), 0.0) /
                      std::max<double>(1.0, static_cast<double>(means.size()));

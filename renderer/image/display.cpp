@@ -4,10 +4,16 @@
 #include <cstddef>
 #include <utility>
 
+#include "base/parallel/loops.h"
 #include "renderer/image/image_library.h"
 #include "renderer/image/white_balance.h"
 
 namespace gatelight::renderer {
+namespace {
+
+constexpr std::size_t kPixelsOfTask = 1024;  // of 0.1 microseconds or more
+
+}  // namespace
 
 std::vector<float> displayed(const Picture& picture, const DisplayOptions& options) {
   const Layer& beauty = picture.layers.front();
@@ -19,7 +25,7 @@ std::vector<float> displayed(const Picture& picture, const DisplayOptions& optio
   const bool balanced = options.white_balance != kDaylightKelvin;
   const bool by_ocio = !options.ocio.config.empty();
   std::vector<float> rgb(3 * pixels), result(with_alpha ? shown * pixels : 0);
-  for (std::size_t p = 0; p < pixels; ++p) {
+  const auto show = [&](std::size_t p) {
     const float* const value = &beauty.values[p * channels];
     const float alpha = with_alpha ? std::clamp(value[colors], 0.0f, 1.0f) : 1.0f;
     Color color;
@@ -31,7 +37,10 @@ std::vector<float> displayed(const Picture& picture, const DisplayOptions& optio
     if (!by_ocio) color = display_color(color, options.tonemap);
     for (std::size_t c = 0; c < 3; ++c) rgb[3 * p + c] = color[static_cast<Eigen::Index>(c)];
     if (with_alpha) result[shown * p + 3] = alpha;
-  }
+  };
+  for_each_range(pixels, kPixelsOfTask, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t p = begin; p < end; ++p) show(p);
+  });
   if (by_ocio) image_library().show(rgb, options.ocio);
   if (!with_alpha) return rgb;
   for (std::size_t p = 0; p < pixels; ++p) std::copy_n(&rgb[3 * p], 3, &result[shown * p]);

@@ -8,6 +8,8 @@
 #include <OpenEXR/ImfOutputFile.h>
 #include <OpenEXR/ImfStandardAttributes.h>
 #include <OpenEXR/ImfStringAttribute.h>
+#include <OpenEXR/ImfThreading.h>
+#include <tbb/global_control.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -15,6 +17,7 @@
 #include <system_error>
 
 #include "base/half.h"
+#include "base/parallel/loops.h"
 
 namespace gatelight::renderer {
 namespace {
@@ -113,7 +116,9 @@ void write_exr(const Picture& picture, std::FILE* stream, bool all_float) {
     void* base = const_cast<float*>(layer.values.data());
     if (!as_float) {
       std::vector<half>& converted = halves.emplace_back(layer.values.size());
-      std::transform(layer.values.begin(), layer.values.end(), converted.begin(), to_half);
+      for_each_range(converted.size(), 1 << 15, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) converted[i] = to_half(layer.values[i]);
+      });
       base = converted.data();
     }
     const Imf::PixelType type = as_float ? Imf::FLOAT : Imf::HALF;
@@ -128,7 +133,10 @@ void write_exr(const Picture& picture, std::FILE* stream, bool all_float) {
 
   StdioStream output(stream);
   {
-    Imf::OutputFile file(output, header);
+    const auto threads =
+        static_cast<int>(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
+    if (threads > 1 && Imf::globalThreadCount() < threads) Imf::setGlobalThreadCount(threads);
+    Imf::OutputFile file(output, header, threads > 1 ? threads : 0);
     file.setFrameBuffer(frame);
     file.writePixels(picture.height);
   }

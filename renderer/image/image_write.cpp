@@ -15,6 +15,7 @@
 #include "base/errors.h"
 #include "base/image/jpeg_write.h"
 #include "base/image/png_write.h"
+#include "base/parallel/loops.h"
 #include "renderer/image/exr.h"
 #include "renderer/image/image_format.h"
 #include "renderer/image/image_library.h"
@@ -27,8 +28,10 @@ template <class Integer>
 std::vector<Integer> quantized(const std::vector<float>& values) {
   constexpr float kGreatest = std::numeric_limits<Integer>::max();
   std::vector<Integer> result(values.size());
-  std::transform(values.begin(), values.end(), result.begin(),
-                 [](float x) { return static_cast<Integer>(std::lround(kGreatest * x)); });
+  for_each_range(values.size(), 1 << 15, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      result[i] = static_cast<Integer>(std::lround(kGreatest * values[i]));
+  });
   return result;
 }
 

@@ -30,7 +30,7 @@ Moments first_targets(const ViewedWorld& viewed, const RenderOptions& options, s
   RecordBatch batch;
   const RecordRequest request{.step = 3, .points = points, .self_training = self_training};
   records.trace(request, batch);
-  records.finish([&](const SurfacePoints&, std::span<float> a) { std::fill(a.begin(), a.end(), answer); },
+  records.finish({[&](const SurfacePoints&, std::span<float> a) { std::fill(a.begin(), a.end(), answer); }},
                  batch);
   records.split(request, batch);
   Moments moments;
