@@ -1,6 +1,7 @@
 #include "apps/render_run.h"
 
 #include <fmt/format.h>
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
@@ -19,7 +20,6 @@
 #include "apps/terminal/terminal.h"
 #include "apps/terminal/text.h"
 #include "base/errors.h"
-#include "base/parallel/loops.h"
 #include "renderer/denoise/oidn_library.h"
 #include "renderer/distributed/collectives.h"
 #include "renderer/film/memory_estimate.h"
@@ -152,7 +152,7 @@ void RenderRun::write_pictures(renderer::Picture picture, const renderer::Render
   report_.exposure = image.display.exposure;
   picture.metadata.merge(make_recipe(settings_, report_.command, statistics, seconds_since(start_)));
   std::vector<std::exception_ptr> errors(outputs.size());
-  for_each(outputs.size(), [&](std::size_t i) {
+  tbb::parallel_for(std::size_t{0}, outputs.size(), [&](std::size_t i) {
     try {
       write_picture(picture, outputs[i], image);
     } catch (...) {

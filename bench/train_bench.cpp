@@ -91,11 +91,9 @@ void small_steps(benchmark::State& state, Order order) {
     };
     const auto all_steps = [&] {
       const neural::TrainingBatch batch = learner.batches[learner.steps++];
-      Team::run(
-          [&](Team& team) {
-            for (std::size_t i = 0; i < kSteps; ++i) learner.backend->train(part(batch, i * kRecords), team);
-          },
-          0, [](std::size_t) {});
+      Team::run([&](Team& team) {
+        for (std::size_t i = 0; i < kSteps; ++i) learner.backend->train(part(batch, i * kRecords), team);
+      });
     };
     std::string record;
     const double seconds = timed_seconds(state, [&] {

@@ -1,14 +1,16 @@
 #pragma once
-// Loops over the threads of the caller's arena. They split their work in a way that does not depend on the
-// number of threads.
+// Loops over the threads of the caller's arena, or of the team that it leads. They split their work in a way
+// that does not depend on the number of threads.
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 
 #include "base/parallel/schedule.h"
+#include "base/parallel/team.h"
 
 namespace gatelight {
 
@@ -16,6 +18,14 @@ namespace gatelight {
 template <class Body>
 void for_each(std::size_t count, const Body& body, const char* file = __builtin_FILE(),
               int line = __builtin_LINE()) {
+  if (Team* const team = Team::led_here()) {
+    return team->for_each(
+        static_cast<std::uint32_t>(count),
+        [&](std::uint32_t begin, std::uint32_t end) {
+          for (std::size_t i = begin; i < end; ++i) body(i);
+        },
+        file, line);
+  }
   schedule::detail::LoopRecord record(schedule::Kind::loop, {file, line}, count);
   const auto run = [&](std::size_t i) { record.run(i, i + 1, [&] { body(i); }); };
   if (count == 1) return run(0);

@@ -272,7 +272,7 @@ void CpuBackend::update(float scale, std::uint32_t chunks, const TrainingBatch& 
 
 StepStatistics CpuBackend::train(const TrainingBatch& batch) {
   StepStatistics statistics;
-  Team::run([&](Team& team) { statistics = train(batch, team); }, 0, [](std::size_t) {});
+  Team::run([&](Team& team) { statistics = train(batch, team); });
   return statistics;
 }
 
@@ -309,12 +309,10 @@ NetworkPass CpuBackend::network_pass(std::span<const float> inputs, std::span<co
                                        network_.kernel().input_stride));
   const Clock::time_point start = Clock::now();
   StepStatistics statistics;
-  Team::run(
-      [&](Team& team) {
-        statistics =
-            run_network({}, targets.data(), inputs.data(), static_cast<std::uint32_t>(records), false, team);
-      },
-      0, [](std::size_t) {});
+  Team::run([&](Team& team) {
+    statistics =
+        run_network({}, targets.data(), inputs.data(), static_cast<std::uint32_t>(records), false, team);
+  });
   return {statistics.loss, seconds_since(start)};
 }
 

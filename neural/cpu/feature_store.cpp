@@ -1,12 +1,10 @@
 #include "neural/cpu/feature_store.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <bit>
 
 #include "base/half.h"
+#include "base/parallel/loops.h"
 
 namespace gatelight::neural::cpu {
 
@@ -14,8 +12,8 @@ namespace {
 
 template <class F>
 void for_range(std::uint64_t count, F&& body) {
-  tbb::parallel_for(tbb::blocked_range<std::uint64_t>(0, count, 4096), [&](const auto& range) {
-    for (std::uint64_t i = range.begin(); i < range.end(); ++i) body(i);
+  for_each_range(count, 4096, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) body(i);
   });
 }
 

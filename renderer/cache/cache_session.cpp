@@ -10,6 +10,7 @@
 #include "base/clock.h"
 #include "base/errors.h"
 #include "base/parallel/schedule.h"
+#include "base/parallel/team.h"
 #include "renderer/cache/cache_backend.h"
 #include "renderer/cache/cache_model.h"
 #include "renderer/cache/cache_query.h"
@@ -67,7 +68,7 @@ CacheSession::CacheSession(const World& world, const Camera& camera, const Pixel
   } else {
     const schedule::Section section("scout");
     Scouting scouting;
-    scouting.add(world, camera, region, options, ranks_);
+    Team::run([&](Team&) { scouting.add(world, camera, region, options, ranks_); });
     ScoutReport report = scouting.report(world.scene, options);
     setup_ = std::move(report.setup);
     scout_rays_ = report.rays;

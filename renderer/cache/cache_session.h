@@ -122,7 +122,8 @@ class CacheSession {
   RecordRequest request(std::uint64_t step, std::uint64_t count, std::uint64_t first_sample) const;
   void begin(std::uint64_t step, std::uint64_t count, std::uint64_t first_sample, Group& group);
   /// Traces a group that was begun while the cache learns from another; both may be null.
-  void trace_and_learn(Group* next, Group* learning, const Watch& watch);
+  void trace_and_learn(Group* next, Group* learning, const Watch& watch, Team& team);
+  void train(std::uint64_t steps, const Watch& watch, Team& team);
   void finish(Group& group);
   /// Takes the records of all ranks.
   void receive(Group& group, const Watch& watch);

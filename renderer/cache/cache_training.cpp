@@ -140,13 +140,19 @@ void CacheSession::receive(Group& group, const Watch& watch) {
   if (watch.before_learning) watch.before_learning(records);
 }
 
-void CacheSession::trace_and_learn(Group* next, Group* learning, const Watch& watch) {
-  const int threads = tbb::this_task_arena::max_concurrency();
+void CacheSession::trace_and_learn(Group* next, Group* learning, const Watch& watch, Team& team) {
   std::atomic<double> traced = 0.0;  // by all threads
-  // Ranks exchange records while they trace the next ones; a single process shares this work, too.
+  // Ranks exchange records while they trace the next ones.
   if (learning && !ranks_) receive(*learning, watch);
-  Team::run(
-      [&](Team& team) {
+  const std::size_t blocks = next ? next->records.starts.blocks() : 0;
+  team.beside(
+      static_cast<std::uint32_t>(blocks),
+      [&](std::size_t block) {
+        const Clock::time_point start = Clock::now();
+        records_->trace(next->records, block);
+        traced += seconds_since(start);
+      },
+      [&] {
         if (!learning) return;
         if (ranks_) receive(*learning, watch);
         const Clock::time_point start = Clock::now();
@@ -155,19 +161,13 @@ void CacheSession::trace_and_learn(Group* next, Group* learning, const Watch& wa
           learn(learning->records, batch, team);
         }
         statistics_.train_step_seconds += seconds_since(start);
-      },
-      next ? next->records.starts.blocks() : 0,
-      [&](std::size_t block) {
-        const Clock::time_point start = Clock::now();
-        records_->trace(next->records, block);
-        traced += seconds_since(start);
       });
   if (!next) return;
   RayCounts rays = records_->rays();
   rays.subtract(next->rays);
   next->rays = rays;
   unlearned_rays_.add(rays);
-  next->work = {traced / threads, rays.camera + rays.bounce + rays.shadow};
+  next->work = {traced / tbb::this_task_arena::max_concurrency(), rays.camera + rays.bounce + rays.shadow};
   statistics_.train_trace_seconds += next->work.seconds;
 }
 
@@ -181,6 +181,10 @@ void CacheSession::rebalance(const Watch& watch) {
 
 void CacheSession::train(std::uint64_t steps, const Watch& watch) {
   const schedule::Section section("train");
+  Team::run([&](Team& team) { train(steps, watch, team); });
+}
+
+void CacheSession::train(std::uint64_t steps, const Watch& watch, Team& team) {
   const Clock::time_point start = Clock::now();
   const double before = statistics_.train_seconds;
   const auto wanted = static_cast<int>(steps);
@@ -205,7 +209,7 @@ void CacheSession::train(std::uint64_t steps, const Watch& watch) {
       begin(step, count, samples_ + (learning ? learning->samples() : 0), *next);
     }
     if (!next && !learning) break;
-    trace_and_learn(next, learning, watch);
+    trace_and_learn(next, learning, watch, team);
     if (learning) {
       synchronize();  // the steps of a device
       look_at_answers(learning->records);

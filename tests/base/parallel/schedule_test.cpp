@@ -20,8 +20,10 @@ TEST(Schedule, HasTheOutermostLoopsWithTheirTasks) {
     const schedule::Recording recording;
     const schedule::Section section("all of it");
     for_each_range(25, 10, [](std::size_t, std::size_t) { for_each(7, [](std::size_t) {}); });
-    Team::run([](Team& team) { team.for_each(4, [](std::uint32_t, std::uint32_t) {}); }, 2,
-              [](std::size_t) {});
+    Team::run([](Team& team) {
+      team.beside(
+          2, [](std::size_t) {}, [] { for_each(4, [](std::size_t) {}); });
+    });
     text = recording.json(1);
   });
   const json record = json::parse(text);

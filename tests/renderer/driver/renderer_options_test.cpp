@@ -101,7 +101,7 @@ TEST(RendererOptions, FramesOfTwoSizesShareACache) {
   options.integrator = Integrator::nrc;
   options.cache.source = TrainingSource::picture;
   options.cache.train_steps = 40;
-  options.cache.batch = 256;
+  options.cache.batch = 2048;
   Renderer renderer(scene, options);
   renderer.begin_frames(0.0);
   renderer.render_frame(0);
