@@ -1,4 +1,4 @@
-// picture/SCENE/{paths,bare,preview,standard,final}/threads:N: whole pictures of 960x540, as gatelight render
+// picture/SCENE/{paths,denoised,bare,preview,standard,final}/threads:N: whole pictures of 960x540, as gatelight render
 // makes them. Counters are the seconds of their phases. With --schedule FILE the last picture's loops and
 // tasks are recorded, for scripts/measure/model-cores.
 
@@ -20,12 +20,13 @@ namespace {
 
 constexpr int kPictureWidth = 960, kPictureHeight = 540;
 
-enum class Kind : std::uint8_t { paths, bare, preview, standard, final };
+enum class Kind : std::uint8_t { paths, denoised, bare, preview, standard, final };
 struct NamedKind {
   const char* name;
   Kind kind;
 };
 constexpr NamedKind kKinds[] = {{"paths", Kind::paths},
+                                {"denoised", Kind::denoised},
                                 {"bare", Kind::bare},
                                 {"preview", Kind::preview},
                                 {"standard", Kind::standard},
@@ -35,8 +36,10 @@ renderer::RenderOptions options_of(const SceneCase& which, Kind kind, int thread
   renderer::RenderOptions options;
   switch (kind) {
     case Kind::paths:
+    case Kind::denoised:
       options.integrator = renderer::Integrator::path;
       options.spp = 8;
+      if (kind == Kind::denoised) options.denoise.denoiser = renderer::DenoiserKind::automatic;
       options.glass_shadows = renderer::GlassShadows::straight;
       break;
     case Kind::bare:

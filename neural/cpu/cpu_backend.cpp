@@ -77,7 +77,7 @@ class CpuBackend final : public Backend {
   };
   void update(float scale, std::uint32_t chunks, const TrainingBatch& batch, Team& team,
               StepStatistics& statistics);
-  void update_bucket(std::uint32_t bucket, float scale, const std::uint32_t* record_steps,
+  void update_bucket(std::uint32_t bucket, bool next, float scale, const std::uint32_t* record_steps,
                      UpdateCounts& counts);
   std::vector<std::uint32_t> count_triangles(const TrainingBatch& batch);
   float* scratch(std::uint64_t floats) const;
@@ -199,9 +199,9 @@ std::vector<std::uint32_t> CpuBackend::count_triangles(const TrainingBatch& batc
   return record_steps;
 }
 
-// Sums the references of a bucket and updates its nodes.
-void CpuBackend::update_bucket(std::uint32_t bucket, float scale, const std::uint32_t* record_steps,
-                               UpdateCounts& counts) {
+// Sums the references of a bucket and updates its nodes. `next`: the next bucket follows.
+void CpuBackend::update_bucket(std::uint32_t bucket, bool next, float scale,
+                               const std::uint32_t* record_steps, UpdateCounts& counts) {
   const bool dense = options_.update == FeatureUpdate::dense;
   const std::uint32_t size = references_.size(bucket);
   if (size == 0 && !dense) return;
@@ -213,6 +213,7 @@ void CpuBackend::update_bucket(std::uint32_t bucket, float scale, const std::uin
   reserve(mine.touched_list, bucket_nodes);
   reserve(mine.steps, bucket_nodes);
   references_.copy(bucket, mine.references.data());
+  if (next) references_.prefetch(bucket + 1);
   KernelFeatureUpdate u = {};
   u.references = mine.references.data();
   u.reference_count = size;
@@ -261,7 +262,7 @@ void CpuBackend::update(float scale, std::uint32_t chunks, const TrainingBatch& 
                           std::min(std::uint64_t{std::min(end, slices)} * kSlice, network_.size()),
                           chunk_gradients_.data(), chunks, scale, network_step);
     for (std::uint32_t i = std::max(begin, slices); i < end; ++i)
-      update_bucket(i - slices, scale, per_triangle ? record_steps.data() : nullptr, counts);
+      update_bucket(i - slices, i + 1 < end, scale, per_triangle ? record_steps.data() : nullptr, counts);
     touched += counts.touched;
     skipped += counts.skipped;
   });

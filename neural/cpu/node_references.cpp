@@ -5,7 +5,7 @@
 namespace gatelight::neural::cpu {
 
 Buckets make_buckets(std::uint32_t nodes, std::uint32_t references) {
-  constexpr std::uint32_t kFewest = 128, kMost = 1024, kLeastShift = 4;
+  constexpr std::uint32_t kFewest = 128, kMost = 512, kLeastShift = 4;
   const std::uint32_t wanted = std::clamp(std::bit_floor(references / 2), kFewest, kMost);
   Buckets b;
   b.nodes = nodes;
@@ -22,7 +22,9 @@ void NodeReferences::start(const Chunks& chunks, const Buckets& buckets, std::ui
   reserve(nodes_, references);
   reserve(weights_, references);
   reserve(references_, references);
-  reserve(starts_, std::size_t{chunks.count} * (buckets.count + 1));
+  // Whole lines, an odd number of them: the same bucket of all chunks is not in one set of the cache.
+  stride_ = (buckets.count + 1 + 31) / 32 * 32 + 16;
+  reserve(starts_, std::size_t{chunks.count} * stride_);
 }
 
 void NodeReferences::sort(std::uint32_t chunk, std::uint32_t nodes_per_level, std::uint32_t features,
@@ -57,6 +59,14 @@ void NodeReferences::sort(std::uint32_t chunk, std::uint32_t nodes_per_level, st
   }
   for (std::uint32_t b = buckets_.count; b > 0; --b) next[b] = next[b - 1];
   next[0] = 0;
+}
+
+void NodeReferences::prefetch(std::uint32_t bucket) const {
+  constexpr std::uint32_t kOfLine = 64 / sizeof(KernelReference);
+  for (std::uint32_t chunk = 0; chunk < chunks_.count; ++chunk) {
+    const std::uint32_t* const at = starts(chunk) + bucket;
+    for (std::uint32_t i = at[0]; i < at[1]; i += kOfLine) __builtin_prefetch(references(chunk) + i);
+  }
 }
 
 std::uint32_t NodeReferences::size(std::uint32_t bucket) const {

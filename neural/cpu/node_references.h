@@ -59,16 +59,17 @@ class NodeReferences {
   void sort(std::uint32_t chunk, std::uint32_t nodes_per_level, std::uint32_t features,
             std::uint32_t feature_inputs);
 
-  /// The number of references to a bucket, when all chunks are sorted.
+  // When all chunks are sorted:
+  /// Fetches the references to a bucket into the cache: each chunk's lie elsewhere.
+  void prefetch(std::uint32_t bucket) const;
+  /// The number of references to a bucket.
   std::uint32_t size(std::uint32_t bucket) const;
   /// Copies them to `to`.
   void copy(std::uint32_t bucket, KernelReference* to) const;
 
  private:
   /// The references of a chunk to each bucket begin there, among those of the chunk.
-  std::uint32_t* starts(std::uint32_t chunk) const {
-    return starts_.data() + std::size_t{chunk} * (buckets_.count + 1);
-  }
+  std::uint32_t* starts(std::uint32_t chunk) const { return starts_.data() + std::size_t{chunk} * stride_; }
   KernelReference* references(std::uint32_t chunk) const {
     return references_.data() + std::size_t{chunks_.begin(chunk)} * slots_;
   }
@@ -76,6 +77,7 @@ class NodeReferences {
   Chunks chunks_;
   Buckets buckets_;
   std::uint32_t slots_ = 0;
+  std::uint32_t stride_ = 0;  ///< of the starts of a chunk
   HugeBuffer<std::uint32_t> nodes_;
   HugeBuffer<float> weights_;
   HugeBuffer<KernelReference> references_;

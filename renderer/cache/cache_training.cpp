@@ -155,12 +155,10 @@ void CacheSession::trace_and_learn(Group* next, Group* learning, const Watch& wa
       [&] {
         if (!learning) return;
         if (ranks_) receive(*learning, watch);
-        const Clock::time_point start = Clock::now();
         for (std::uint64_t batch = 0; batch < learning->steps(); ++batch) {
           counts_.add(learning->records, batch, steps_);
           learn(learning->records, batch, team);
         }
-        statistics_.train_step_seconds += seconds_since(start);
       });
   if (!next) return;
   RayCounts rays = records_->rays();
@@ -198,6 +196,11 @@ void CacheSession::train(std::uint64_t steps, const Watch& watch, Team& team) {
     const bool over = seconds_since(start) >= limit;
     return ranks_ ? agreed(ranks_->ranks, over) : over;
   };
+  const auto note_seconds = [&] {
+    CacheStatistics& s = statistics_;
+    s.train_seconds = before + seconds_since(start);
+    s.train_step_seconds = std::max(s.train_seconds - s.train_trace_seconds - s.train_query_seconds, 0.0);
+  };
   Group groups[2];
   Group* learning = nullptr;  // traced and finished, but not learned
   for (bool goes_on = true; goes_on;) {
@@ -214,7 +217,7 @@ void CacheSession::train(std::uint64_t steps, const Watch& watch, Team& team) {
       synchronize();  // the steps of a device
       look_at_answers(learning->records);
       rebalance(watch);
-      statistics_.train_seconds = before + seconds_since(start);
+      note_seconds();
       if (watch.progress) watch.progress(static_cast<int>(steps_), wanted, statistics_.loss);
       if (watch.after_group) watch.after_group();
       goes_on = !give_up();
@@ -227,7 +230,7 @@ void CacheSession::train(std::uint64_t steps, const Watch& watch, Team& team) {
     }
     learning = next;
   }
-  statistics_.train_seconds = before + seconds_since(start);
+  note_seconds();
 }
 
 }  // namespace gatelight::renderer

@@ -50,10 +50,11 @@ struct CacheStatistics {
   double scout_seconds = 0.0;
   double setup_seconds = 0.0;  ///< from scouting to the first step: layout, parameters, optimiser
   double train_seconds = 0.0;  ///< the whole phase, without scouting and setup
+  // Its parts, which go on at once: the time that all threads spend on each, over the number of threads.
   double train_trace_seconds = 0.0;
-  double train_query_seconds = 0.0;  ///< answers at the ends of training paths
-  double train_step_seconds = 0.0;
-  double render_trace_seconds = 0.0;
+  double train_query_seconds = 0.0;   ///< answers at the ends of training paths
+  double train_step_seconds = 0.0;    ///< all else: the steps, and threads that wait
+  double render_trace_seconds = 0.0;  ///< the same for the passes
   double render_query_seconds = 0.0;
   std::uint64_t queries = 0;           ///< of the rendering phase
   std::uint64_t negative_answers = 0;  ///< clamped to zero: points with a negative channel
