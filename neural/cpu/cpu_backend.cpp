@@ -72,13 +72,10 @@ class CpuBackend final : public Backend {
   void start_output_at_mean(const TrainingBatch& batch);
   StepStatistics run_network(const KernelPoints& points, const float* targets, const float* inputs,
                              std::uint32_t records, bool references, Team& team);
-  struct UpdateCounts {
-    std::uint64_t touched = 0, skipped = 0;
-  };
+  KernelFeatureUpdate feature_update(float scale, const std::uint32_t* record_steps) const;
+  void update_buckets(std::uint32_t begin, std::uint32_t end, KernelFeatureUpdate u);
   void update(float scale, std::uint32_t chunks, const TrainingBatch& batch, Team& team,
               StepStatistics& statistics);
-  void update_bucket(std::uint32_t bucket, bool next, float scale, const std::uint32_t* record_steps,
-                     UpdateCounts& counts);
   std::vector<std::uint32_t> count_triangles(const TrainingBatch& batch);
   float* scratch(std::uint64_t floats) const;
 
@@ -199,31 +196,14 @@ std::vector<std::uint32_t> CpuBackend::count_triangles(const TrainingBatch& batc
   return record_steps;
 }
 
-// Sums the references of a bucket and updates its nodes. `next`: the next bucket follows.
-void CpuBackend::update_bucket(std::uint32_t bucket, bool next, float scale,
-                               const std::uint32_t* record_steps, UpdateCounts& counts) {
-  const bool dense = options_.update == FeatureUpdate::dense;
-  const std::uint32_t size = references_.size(bucket);
-  if (size == 0 && !dense) return;
-  BucketScratch& mine = bucket_scratch_.local();
-  const std::size_t bucket_nodes = std::size_t{1} << buckets_.shift;
-  reserve(mine.references, size);
-  reserve(mine.sums, bucket_nodes * layout_.features);
-  reserve(mine.touched, bucket_nodes / 64 + 1);
-  reserve(mine.touched_list, bucket_nodes);
-  reserve(mine.steps, bucket_nodes);
-  references_.copy(bucket, mine.references.data());
-  if (next) references_.prefetch(bucket + 1);
+// What all buckets of a step have in common.
+KernelFeatureUpdate CpuBackend::feature_update(float scale, const std::uint32_t* record_steps) const {
   KernelFeatureUpdate u = {};
-  u.references = mine.references.data();
-  u.reference_count = size;
-  u.first_node = buckets_.first(bucket);
-  u.node_count = buckets_.size(bucket);
   u.features = layout_.features;
   u.feature_inputs = layout_.feature_inputs;
   u.feature_gradients = feature_gradients_.data();
   u.record_steps = record_steps;
-  u.dense = dense ? 1 : 0;
+  u.dense = options_.update == FeatureUpdate::dense ? 1 : 0;
   u.adam = {options_.adam.beta1, options_.adam.beta2, scale};
   u.steps = adam_table_.data();
   u.step_count = kAdamTableSteps;
@@ -233,13 +213,32 @@ void CpuBackend::update_bucket(std::uint32_t bucket, bool next, float scale,
   u.late_context = &options_;
   u.dense_step = adam_step(options_, steps_);
   features_.set_update_view(u);
+  return u;
+}
+
+// Sums the references of some buckets and updates their nodes.
+void CpuBackend::update_buckets(std::uint32_t begin, std::uint32_t end, KernelFeatureUpdate u) {
+  BucketScratch& mine = bucket_scratch_.local();
+  const std::size_t bucket_nodes = std::size_t{1} << buckets_.shift;
+  reserve(mine.sums, bucket_nodes * layout_.features);
+  reserve(mine.touched, bucket_nodes / 64 + 1);
+  reserve(mine.touched_list, bucket_nodes);
+  reserve(mine.steps, bucket_nodes);
   u.sums = mine.sums.data();
   u.touched = mine.touched.data();
   u.touched_list = mine.touched_list.data();
   u.step_scratch = mine.steps.data();
-  u.touched_count = &counts.touched;
-  u.skipped_count = &counts.skipped;
-  table_.update_features(u);
+  for (std::uint32_t bucket = begin; bucket < end; ++bucket) {
+    u.reference_count = references_.size(bucket);
+    if (u.reference_count == 0 && u.dense == 0) continue;
+    reserve(mine.references, u.reference_count);
+    references_.copy(bucket, mine.references.data());
+    if (bucket + 1 < end) references_.prefetch(bucket + 1);
+    u.references = mine.references.data();
+    u.first_node = buckets_.first(bucket);
+    u.node_count = buckets_.size(bucket);
+    table_.update_features(u);
+  }
 }
 
 // Updates the network and the features, in one loop.
@@ -250,21 +249,25 @@ void CpuBackend::update(float scale, std::uint32_t chunks, const TrainingBatch& 
       options_.feature_step == FeatureStep::per_triangle && options_.update != FeatureUpdate::dense;
   std::vector<std::uint32_t> record_steps;
   if (!triangle_steps_.empty()) record_steps = count_triangles(batch);
-  const KernelAdamStep network_step = adam_step(options_, steps_);
+  const KernelFeatureUpdate of_features = feature_update(scale, per_triangle ? record_steps.data() : nullptr);
   const auto slices = static_cast<std::uint32_t>((network_.size() + kSlice - 1) / kSlice);
   std::atomic<std::uint64_t> touched = 0, skipped = 0;
   team.for_each(slices + buckets_.count, [&](std::uint32_t begin, std::uint32_t end) {
     const FlushDenormals flush;
-    UpdateCounts counts;
+    std::uint64_t touched_here = 0, skipped_here = 0;
     if (begin < slices)
-      counts.skipped +=
+      skipped_here +=
           network_.update(std::uint64_t{begin} * kSlice,
                           std::min(std::uint64_t{std::min(end, slices)} * kSlice, network_.size()),
-                          chunk_gradients_.data(), chunks, scale, network_step);
-    for (std::uint32_t i = std::max(begin, slices); i < end; ++i)
-      update_bucket(i - slices, i + 1 < end, scale, per_triangle ? record_steps.data() : nullptr, counts);
-    touched += counts.touched;
-    skipped += counts.skipped;
+                          chunk_gradients_.data(), chunks, scale, of_features.dense_step);
+    if (end > slices) {
+      KernelFeatureUpdate u = of_features;
+      u.touched_count = &touched_here;
+      u.skipped_count = &skipped_here;
+      update_buckets(std::max(begin, slices) - slices, end - slices, u);
+    }
+    touched += touched_here;
+    skipped += skipped_here;
   });
   network_.updated();
   statistics.touched_nodes = touched;

@@ -4,10 +4,12 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <map>
 #include <optional>
+#include <unordered_map>
 #include <utility>
 #include <vector>
+
+#include "base/parallel/loops.h"
 
 namespace gatelight::renderer {
 namespace {
@@ -88,31 +90,45 @@ double light_change(const scene::Scene& scene, const RecordBatch& group, std::sp
                     std::size_t outputs) {
   const std::size_t records = group.records.size();
   if (records == 0 || scene.bounds.isEmpty()) return 0.0;
+  struct Met {
+    Vec3 position;
+    std::pair<double, double> values;  ///< answer and target
+    std::uint64_t cell = 0;
+    Cell* of = nullptr;
+    std::optional<double> change;
+  };
+  std::vector<Met> met(records);
+  const auto each = [&](const auto& visit) {
+    for_each_range(records, 1024, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) visit(i, met[i]);
+    });
+  };
+  each([&](std::size_t i, Met& m) {
+    m.position = position_of(scene, group.records, i);
+    m.values = {mean_of(&answers[outputs * i], outputs), mean_of(&group.targets[outputs * i], outputs)};
+  });
   Cell all;
-  std::vector<std::pair<double, double>> values(records);  // answer and target
-  for (std::size_t i = 0; i < records; ++i) {
-    values[i] = {mean_of(&answers[outputs * i], outputs), mean_of(&group.targets[outputs * i], outputs)};
-    if (is_finite(values[i])) all.add(values[i].first, values[i].second);
+  for (const Met& m : met) {
+    if (is_finite(m.values)) all.add(m.values.first, m.values.second);
   }
   if (!(all.records > 0.0)) return 0.0;
   const double least_variance = kShareOfAll * all.relative_variance();
-  std::vector<std::optional<double>> changes(records);
   for (const float cells_across : kCells) {
     const float size = std::max(scene.bounds.diagonal().norm() / cells_across, 1e-30f);
-    std::map<std::uint64_t, Cell> cells;
-    std::vector<const Cell*> cell_of_record(records, nullptr);
-    for (std::size_t i = 0; i < records; ++i) {
-      if (!is_finite(values[i])) continue;
-      Cell& cell = cells[cell_of(position_of(scene, group.records, i), scene.bounds, size)];
-      cell.add(values[i].first, values[i].second);
-      cell_of_record[i] = &cell;
+    each([&](std::size_t, Met& m) { m.cell = cell_of(m.position, scene.bounds, size); });
+    std::unordered_map<std::uint64_t, Cell> cells;
+    for (Met& m : met) {
+      if (!is_finite(m.values)) continue;
+      m.of = &cells[m.cell];
+      m.of->add(m.values.first, m.values.second);
     }
-    for (std::size_t i = 0; i < records; ++i) {
-      if (!changes[i] && cell_of_record[i]) changes[i] = cell_of_record[i]->change(least_variance);
-    }
+    each([&](std::size_t, Met& m) {
+      if (!m.change && m.of) m.change = m.of->change(least_variance);
+      m.of = nullptr;
+    });
   }
   double sum = 0.0;
-  for (const std::optional<double>& change : changes) sum += change.value_or(0.0);
+  for (const Met& m : met) sum += m.change.value_or(0.0);
   return sum / all.records;
 }
 
