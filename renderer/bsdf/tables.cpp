@@ -1,11 +1,15 @@
 #include "renderer/bsdf/tables.h"
 
+#include <tbb/task_arena.h>
+
+#include "base/parallel/loops.h"
 #include "renderer/bsdf/quadrature.h"
 
 namespace gatelight::renderer {
 
 GgxTables::GgxTables() {
-  for (int k = 0; k < kRoughness; ++k) {
+  const auto fill = [&](std::size_t number) {
+    const int k = static_cast<int>(number);
     const float roughness = static_cast<float>(k) / (kRoughness - 1);
     const float alpha = std::max(roughness * roughness, kDeltaAlpha);
     const float alpha2 = alpha * alpha;
@@ -35,7 +39,9 @@ GgxTables::GgxTables() {
       values_[k][i] = {1.0f - kept, grazing.row_sum(i, ones) - kept * schlick,
                        scale[i] * grazing.row_sum(i, scale) - schlick, scale[i]};
     }
-  }
+  };
+  // Isolated: a thread that waits here must not begin a task that needs these tables.
+  tbb::this_task_arena::isolate([&] { for_each(kRoughness, fill); });
   // The means are those of the interpolated table itself, so that the coupled diffuse lobe sums to the
   // transmitted light.
   means_ = {};
