@@ -1,14 +1,14 @@
-// picture/SCENE/{paths,denoised,bare,preview,standard,final}/threads:N: whole pictures of 960x540, as gatelight render
-// makes them. Counters are the seconds of their phases. With --schedule FILE the last picture's loops and
-// tasks are recorded, for scripts/measure/model-cores.
+// picture/SCENE/{paths,denoised,bare,preview,standard,final}/threads:N: whole pictures of 960x540, as
+// gatelight render makes them. Counters are the seconds of their phases. With --schedule=FILE the last
+// picture's loops and tasks are recorded, for scripts/measure/model-cores.
 
 #include <benchmark/benchmark.h>
 
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "base/parallel/schedule.h"
-#include "base/platform/threads.h"
 #include "bench/schedule_file.h"
 #include "bench/world_fixture.h"
 #include "renderer/render.h"
@@ -20,41 +20,28 @@ namespace {
 
 constexpr int kPictureWidth = 960, kPictureHeight = 540;
 
-enum class Kind : std::uint8_t { paths, denoised, bare, preview, standard, final };
-struct NamedKind {
+struct Kind {
   const char* name;
-  Kind kind;
+  std::optional<renderer::CachePreset> preset;  ///< none: paths
+  bool denoised = false;                        ///< of paths
 };
-constexpr NamedKind kKinds[] = {{"paths", Kind::paths},
-                                {"denoised", Kind::denoised},
-                                {"bare", Kind::bare},
-                                {"preview", Kind::preview},
-                                {"standard", Kind::standard},
-                                {"final", Kind::final}};
+constexpr Kind kKinds[] = {{"paths", {}},
+                           {"denoised", {}, true},
+                           {"bare", renderer::CachePreset::bare},
+                           {"preview", renderer::CachePreset::preview},
+                           {"standard", renderer::CachePreset::standard},
+                           {"final", renderer::CachePreset::final}};
 
-renderer::RenderOptions options_of(const SceneCase& which, Kind kind, int threads) {
+renderer::RenderOptions options_of(const SceneCase& which, const Kind& kind, int threads) {
   renderer::RenderOptions options;
-  switch (kind) {
-    case Kind::paths:
-    case Kind::denoised:
-      options.integrator = renderer::Integrator::path;
-      options.spp = 8;
-      if (kind == Kind::denoised) options.denoise.denoiser = renderer::DenoiserKind::automatic;
-      options.glass_shadows = renderer::GlassShadows::straight;
-      break;
-    case Kind::bare:
-      renderer::apply_preset(renderer::CachePreset::bare, options);
-      options.cache.train_steps = 256;
-      break;
-    case Kind::preview:
-      renderer::apply_preset(renderer::CachePreset::preview, options);
-      break;
-    case Kind::standard:
-      renderer::apply_preset(renderer::CachePreset::standard, options);
-      break;
-    case Kind::final:
-      renderer::apply_preset(renderer::CachePreset::final, options);
-      break;
+  if (kind.preset) {
+    renderer::apply_preset(*kind.preset, options);
+    if (*kind.preset == renderer::CachePreset::bare) options.cache.train_steps = 256;
+  } else {
+    options.integrator = renderer::Integrator::path;
+    options.spp = 8;
+    options.glass_shadows = renderer::GlassShadows::straight;
+    if (kind.denoised) options.denoise.denoiser = renderer::DenoiserKind::automatic;
   }
   options.width = kPictureWidth;
   options.height = kPictureHeight;
@@ -72,17 +59,16 @@ struct Ready {
   std::unique_ptr<renderer::Renderer> renderer;
 };
 
-void make_picture(benchmark::State& state, const SceneCase& which, const NamedKind& kind) {
+void make_picture(benchmark::State& state, const SceneCase& which, const Kind& kind) {
   static Ready ready;
   const std::filesystem::path file = file_of(which);
   if (file.empty()) return state.SkipWithError(kNoScene);
-  const int threads = state.range(0) > 0 ? static_cast<int>(state.range(0)) : available_threads();
+  const auto threads = static_cast<int>(state.range(0));
   const std::string row = std::string(which.name) + kind.name + std::to_string(threads);
   if (ready.row != row) {
     ready = {};
     ready.scene = std::make_unique<scene::Scene>(scene::load_gltf(file));
-    ready.renderer =
-        std::make_unique<renderer::Renderer>(*ready.scene, options_of(which, kind.kind, threads));
+    ready.renderer = std::make_unique<renderer::Renderer>(*ready.scene, options_of(which, kind, threads));
     ready.row = row;
   }
   std::string record;
@@ -108,7 +94,7 @@ void make_picture(benchmark::State& state, const SceneCase& which, const NamedKi
 
 const bool pictures_registered = [] {
   for (const SceneCase* which : {&kSalle, &kSponza, &kLiving, &kKitchen, &kBistro}) {
-    for (const NamedKind& kind : kKinds) {
+    for (const Kind& kind : kKinds) {
       const std::string name = std::string("picture/") + which->name + "/" + kind.name;
       benchmark::internal::Benchmark* const row = benchmark::RegisterBenchmark(
           name.c_str(), [which, kind](benchmark::State& s) { make_picture(s, *which, kind); });
