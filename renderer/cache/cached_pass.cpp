@@ -1,7 +1,6 @@
 #include "renderer/cache/cached_pass.h"
 
 #include <algorithm>
-#include <atomic>
 
 #include "base/clock.h"
 #include "base/finite_float.h"
@@ -61,12 +60,9 @@ void CachedPass::run(int samples, Film& film, const std::function<void(double)>&
 void CachedPass::run_tiles(int samples, Film& film, const std::function<void(double)>& report) {
   const Clock::time_point start = Clock::now();
   const TileGrid& grid = context_.tiles;
-  std::atomic<int> done = 0;
-  for_each(static_cast<std::size_t>(grid.count()), [&](std::size_t t) {
-    if (out_of_time()) return;
-    CachedWorker& worker = workers_.local();
+  each_tile(grid, report, [&](CachedWorker& worker, int number) {
     Tile& tile = worker.tile;
-    grid.pixels(static_cast<int>(t), tile.pixels);
+    grid.pixels(number, tile.pixels);
     for (int sample = 0; sample < samples; ++sample) {
       begin(tile, film, worker);
       const SurfacePoints& queries = tile.paths.queries;
@@ -79,7 +75,6 @@ void CachedPass::run_tiles(int samples, Film& film, const std::function<void(dou
       tile.answers = worker.answers;
       finish(tile, film, worker);
     }
-    report(static_cast<double>(++done) / grid.count());
   });
   statistics_.render_trace_seconds += seconds_since(start);
 }

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <functional>
 
+#include "base/parallel/loops.h"
 #include "renderer/film/film.h"
 #include "renderer/film/film_samples.h"
 #include "renderer/film/tiles.h"
@@ -69,6 +70,17 @@ class WorkerPass : public Pass {
   }
 
  protected:
+  /// Calls body(worker, tile) for the number of each tile, but for those that time leaves out.
+  template <class Body>
+  void each_tile(const TileGrid& tiles, const std::function<void(double)>& report, const Body& body) {
+    std::atomic<int> done = 0;
+    for_each(static_cast<std::size_t>(tiles.count()), [&](std::size_t tile) {
+      if (out_of_time()) return;
+      body(workers_.local(), static_cast<int>(tile));
+      report(static_cast<double>(++done) / tiles.count());
+    });
+  }
+
   tbb::enumerable_thread_specific<Worker> workers_;
 };
 

@@ -1,8 +1,5 @@
 #include "renderer/transport/reference_pass.h"
 
-#include <atomic>
-
-#include "base/parallel/loops.h"
 #include "renderer/settings/resolved_options.h"
 
 namespace gatelight::renderer {
@@ -15,11 +12,8 @@ ReferencePass::ReferencePass(const World& world, const PassContext& context)
 void ReferencePass::run(int samples, Film& film, const std::function<void(double)>& report) {
   const TileGrid& tiles = context_.tiles;
   const RenderOptions& options = context_.options;
-  std::atomic<int> finished{0};
-  for_each(static_cast<std::size_t>(tiles.count()), [&](std::size_t tile) {
-    if (out_of_time()) return;
-    ReferenceWorker& w = workers_.local();
-    tiles.pixels(static_cast<int>(tile), w.pixels);
+  each_tile(tiles, report, [&](ReferenceWorker& w, int tile) {
+    tiles.pixels(tile, w.pixels);
     for (int sample = 0; sample < samples; ++sample) {
       film.take(w.pixels, w.taken);
       w.results.resize(w.taken.size());
@@ -32,7 +26,6 @@ void ReferencePass::run(int samples, Film& film, const std::function<void(double
       }
       add_to_film(w.taken, options, w.results, w.first_hits, film, w.counts, w.path.parts);
     }
-    report(static_cast<double>(++finished) / tiles.count());
   });
 }
 
