@@ -44,6 +44,9 @@ class HugeBuffer {
     std::swap(size_, other.size_);
     return *this;
   }
+  friend bool operator==(const HugeBuffer& a, const HugeBuffer& b) {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end());
+  }
   T* data() const { return data_.get(); }
   T* begin() const { return data(); }
   T* end() const { return data() + size_; }

@@ -177,8 +177,8 @@ void number_instance(const PlanScene& scene, const LayoutPlan& plan, const Topol
 }
 
 void write_topology(const PlanScene& scene, const LayoutPlan& plan, const TopologyTables& tables,
-                    std::vector<std::uint32_t>& topology) {
-  topology.resize(tables.words == 0 ? 0 : std::size_t{tables.words} + kTopologyPadding, 0);
+                    HugeBuffer<std::uint32_t>& topology) {
+  if (tables.words > 0) topology = HugeBuffer<std::uint32_t>(std::size_t{tables.words} + kTopologyPadding);
   const bool merged = clusters_scene(plan.density);
   SceneNumbers scene_numbers;
   if (merged) scene_numbers = number_scene(scene, plan);

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "base/platform/huge_buffer.h"
 #include "neural/layout/gate_tables.h"
 #include "neural/layout/surface_layout.h"
 
@@ -96,7 +97,7 @@ struct GateLayout {
   std::uint32_t triangle_count = 0;   ///< triangles with storage, counted once per side
   std::vector<GateSurface> surfaces;  ///< 2 per instance
   std::vector<GateSurfaceLevel> levels;
-  std::vector<std::uint32_t> topology;
+  HugeBuffer<std::uint32_t> topology;
   GateLayoutReport report;
 };
 

@@ -85,11 +85,13 @@ class Digest {
     static_assert(std::has_unique_object_representations_v<T> || std::is_same_v<T, float>);
     add_bytes(std::as_bytes(std::span(&value, 1)));
   }
-  template <class T>
-  void add_all(const std::vector<T>& values) {
-    static_assert(std::has_unique_object_representations_v<T>, "padding would be hashed");
-    add(std::uint64_t{values.size()});
-    add_bytes(std::as_bytes(std::span(values)));
+  template <class Values>
+  void add_all(const Values& values) {
+    const std::span all(values);
+    static_assert(std::has_unique_object_representations_v<typename decltype(all)::value_type>,
+                  "padding would be hashed");
+    add(std::uint64_t{all.size()});
+    add_bytes(std::as_bytes(all));
   }
   std::string text() const { return fmt::format("{:016x}", state_); }
 
