@@ -328,8 +328,9 @@ void CpuBackend::query(const QueryBatch& batch, const QueryOptions& options, std
   const KernelNetwork& network = network_.query_kernel(options.averaged, bf16);
   const KernelPoints points = kernel_points(*model_, batch);
   const std::uint64_t scratch_floats = table_.scratch_floats(encoder, network);
-  constexpr std::size_t kChunk = 64 * kTile;
-  for_each_range(batch.size, kChunk, [&](std::size_t begin, std::size_t end) {
+  constexpr std::size_t kMost = 64, kFewest = 4, kChunks = 64;
+  const std::size_t tiles = std::clamp(batch.size / (kTile * kChunks), kFewest, kMost);
+  for_each_range(batch.size, tiles * kTile, [&](std::size_t begin, std::size_t end) {
     const FlushDenormals flush;
     KernelQuery q = {};
     q.encoder = &encoder;
