@@ -94,7 +94,7 @@ std::vector<OwnedBatch> batches_of(const Model& model, std::span<const std::size
   return batches;
 }
 
-// The kernels' chunks hold 768 records.
+// From many chunks of records down to less than a tile, and none.
 constexpr std::size_t kSizes[] = {1600, 768, 1, 769, 0, 100};
 
 TEST(Determinism, AHundredStepsAreTheSameForAnyNumberOfThreads) {
