@@ -36,6 +36,9 @@ class Document {
   /// if the sum of all calls is implausible for a file of this size: a huge count needs only a few
   /// characters.
   void claim(std::size_t bytes, std::string_view where) const;
+  /// The sum of all claims, to return to it once their memory is free again.
+  std::size_t claimed() const { return claimed_; }
+  void return_to(std::size_t claimed) const { claimed_ = claimed; }
 
   /// Bytes of a buffer view, decompressed if necessary. Thread-safe. Throws InputError.
   Bytes view(int index, std::string_view where) const;
@@ -58,7 +61,7 @@ class Document {
   tinygltf::Model model_;
   std::vector<Bytes> buffers_;               ///< byteLength bytes, or fewer; empty for a placeholder
   std::size_t read_bytes_ = 0;               ///< size of the file and its buffers
-  mutable std::size_t claimed_ = 0;          ///< sum of all claims, bytes
+  mutable std::size_t claimed_ = 0;          ///< bytes
   mutable std::mutex mutex_;                 ///< guards decoded_
   mutable std::vector<OwnedBytes> decoded_;  ///< contents of compressed views, by view index
 };

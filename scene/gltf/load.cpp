@@ -37,13 +37,13 @@ Vec3 choose_origin(const Graph& graph, const Parts& parts, const std::vector<Box
       if (boxes[i].isEmpty()) return;
       for (int corner = 0; corner < 8; ++corner) {
         const Vec3 p = boxes[i].corner(static_cast<Box::CornerType>(corner));
-        bounds.extend(placement.transform.linear().cast<double>() * p.cast<double>() + placement.translation);
+        bounds.extend(placement.transform * p.cast<double>());
       }
     });
   }
   if (bounds.isEmpty()) return Vec3::Zero();
   const double radius = 0.5 * bounds.diagonal().norm();
-  if (!(bounds.center().norm() > kFarFromOrigin * radius) || !(radius > 0.0)) return Vec3::Zero();
+  if (!(bounds.center().norm() > kFarFromOrigin * radius)) return Vec3::Zero();
   // The centre is rounded so that single precision holds it exactly.
   const Eigen::Vector3d center = bounds.center();
   const double step = std::exp2(std::ceil(std::log2(center.cwiseAbs().maxCoeff())) - 23.0);
@@ -80,14 +80,16 @@ class Loader {
     const int variant =
         options_.variant.empty() ? -1 : find_variant(document_, scene.variants, options_.variant);
     motion_ = find_motion(document_);
-    Graph graph = flatten_nodes(document_, motion_, options_, warnings_);
+    Graph graph = flatten_nodes(document_, motion_, options_, scene.origin, warnings_);
     parts_.emplace(document_, graph, variant);
     appearance_.load_materials(parts_->materials(), options_, scene, warnings_);
     parts_->claim(document_, graph, options_.bake_transforms);
-    load_meshes(graph, scene);
+    scene.meshes.resize(parts_->size());
+    load_meshes(graph, scene, [](const Pose&) { return true; });
+    move_to_origin(graph, scene);
     place(graph, scene);
-    take_cameras(graph, scene);
-    take_lights(graph, scene);
+    scene.cameras = graph.cameras;
+    scene.lights = graph.lights;
     appearance_.load_images(options_, scene, warnings_);
     take_image_light(scene);
     scene.motion = {.instances = std::any_of(scene.instances.begin(), scene.instances.end(),
@@ -112,10 +114,10 @@ class Loader {
     if (!animator_) animator_.emplace(document_, warnings_);
     open_shutter(scene, seconds);
     animator_->apply(seconds, warnings_);
-    const Graph graph = flatten_nodes(document_, motion_, options_, warnings_);
-    take_cameras(graph, scene);
+    const Graph graph = flatten_again(scene);
+    scene.cameras = graph.cameras;
     if (scene.motion.lights || scene.motion.materials) {  // adjust() wants both as the file has them
-      take_lights(graph, scene);
+      scene.lights = graph.lights;
       appearance_.load_materials(parts_->materials(), options_, scene, warnings_);
       appearance_.load_images(options_, scene, warnings_);
       for (const int original : culled_copies_) add_culled_copy(scene, original);
@@ -139,20 +141,39 @@ class Loader {
     return mesh;
   }
 
-  void load_meshes(const Graph& graph, Scene& scene) {
-    scene.meshes.resize(parts_->size());
+  /// The nodes with the model's present values. It has claimed the memory of its nodes before.
+  Graph flatten_again(const Scene& scene) {
+    const std::size_t claimed = document_.claimed();
+    Graph graph = flatten_nodes(document_, motion_, options_, scene.origin, warnings_);
+    document_.return_to(claimed);
+    return graph;
+  }
+
+  /// Those whose poses are chosen.
+  template <typename Choice>
+  void load_meshes(const Graph& graph, Scene& scene, const Choice& chosen) {
     load_each(
         parts_->size(),
-        [&](std::size_t i, Warnings& warnings) { scene.meshes[i] = load_part(graph, i, scene, warnings); },
+        [&](std::size_t i, Warnings& warnings) {
+          if (chosen(element(graph.poses, (*parts_)[i].pose)))
+            scene.meshes[i] = load_part(graph, i, scene, warnings);
+        },
         warnings_);
   }
 
-  void place(const Graph& graph, Scene& scene) {
+  /// Sets the origin, and takes what lies in the world anew if that is not the file's.
+  void move_to_origin(Graph& graph, Scene& scene) {
     std::vector<Box> boxes(parts_->size());
     for (std::size_t i = 0; i < boxes.size(); ++i) {
       for (const Vec3& p : scene.meshes[i].positions) boxes[i].extend(p);
     }
     scene.origin = choose_origin(graph, *parts_, boxes);
+    if (scene.origin.isZero(0.0f)) return;
+    graph = flatten_again(scene);
+    load_meshes(graph, scene, [](const Pose& pose) { return pose.skin >= 0; });
+  }
+
+  void place(const Graph& graph, Scene& scene) {
     for (const Placement& placement : graph.placements) {
       parts_->for_each_of(placement.pose, [&](std::size_t i) {
         if (scene.meshes[i].triangles.empty()) return;
@@ -162,19 +183,18 @@ class Loader {
         instance.placement = static_cast<int>(&placement - graph.placements.data());
         instance.dielectric_priority = placement.dielectric_priority;
         instance.moves = placement.moves;
-        put(placement, scene, instance);
+        put(placement, instance);
         scene.instances.push_back(std::move(instance));
       });
     }
     drop_unused_meshes(scene);
   }
 
-  void put(const Placement& placement, const Scene& scene, Instance& instance) const {
+  static void put(const Placement& placement, Instance& instance) {
     instance.hidden = placement.hidden;
-    instance.transform = placement.transform;
-    instance.transform.translation() = from_origin(scene, placement.translation);
+    instance.transform = rounded(placement.transform);
     // Computed in double: the product of three small scales would underflow in single precision.
-    instance.mirrors = placement.transform.linear().cast<double>().determinant() < 0.0;
+    instance.mirrors = instance.transform.linear().cast<double>().determinant() < 0.0;
     if (instance.moves) thicken(instance.transform);
   }
 
@@ -190,7 +210,7 @@ class Loader {
     Box bounds;
     for (Instance& instance : scene.instances) {
       if (!instance.moves) continue;
-      put(element(graph.placements, instance.placement), scene, instance);
+      put(element(graph.placements, instance.placement), instance);
       for (const Vec3& p : scene.mesh_of(instance).positions) bounds.extend(instance.transform * p);
     }
     check_bounds(scene, bounds);
@@ -204,12 +224,8 @@ class Loader {
     for (int key = 0; key < kShutterKeys; ++key) {
       const auto from_middle = static_cast<double>(time_of_key(key) - kShutterMiddle);
       animator_->apply(seconds + options_.shutter * from_middle, warnings_);
-      const Graph graph = flatten_nodes(document_, motion_, options_, warnings_);
-      Scene moved;  // with the parts that move
-      moved.origin = scene.origin;
-      take_cameras(graph, moved);
-      if (scene.motion.lights) take_lights(graph, moved);
-      states.add(moved);
+      const Graph graph = flatten_again(scene);
+      states.add(graph, scene.motion.lights);
       if (!scene.motion.instances) continue;
       load_each(
           scene.meshes.size(),
@@ -223,7 +239,7 @@ class Loader {
       for (std::size_t i = 0; i < scene.instances.size(); ++i) {
         Instance instance = scene.instances[i];
         if (!instance.moves) continue;
-        put(element(graph.placements, instance.placement), scene, instance);
+        put(element(graph.placements, instance.placement), instance);
         states.add_transform(i, instance.transform);
         for (const Vec3& p : states.positions(static_cast<std::size_t>(instance.mesh)))
           bounds.extend(instance.transform * p);
@@ -231,20 +247,6 @@ class Loader {
       check_bounds(scene, bounds);
     }
     scene.shutter = states.finish();
-  }
-
-  static void take_cameras(const Graph& graph, Scene& scene) {
-    scene.cameras = graph.cameras;
-    if (scene.origin.isZero(0.0f)) return;
-    for (std::size_t i = 0; i < scene.cameras.size(); ++i)
-      scene.cameras[i].transform.translation() = from_origin(scene, graph.camera_positions[i]);
-  }
-
-  static void take_lights(const Graph& graph, Scene& scene) {
-    scene.lights = graph.lights;
-    if (scene.origin.isZero(0.0f)) return;
-    for (std::size_t i = 0; i < scene.lights.size(); ++i)
-      scene.lights[i].position = from_origin(scene, graph.light_positions[i]);
   }
 
   void take_image_light(Scene& scene) {
@@ -257,11 +259,6 @@ class Loader {
     scene.dark_lights.clear();
     adjust_lights(scene, options_.lights);
     give_profiles(scene, options_.profiles);
-  }
-
-  static Vec3 from_origin(const Scene& scene, const Eigen::Vector3d& position) {
-    const Eigen::Vector3d from = position - scene.origin.cast<double>();
-    return from.cast<float>();
   }
 
   void check_bounds(const Scene& scene, const Box& bounds) const {

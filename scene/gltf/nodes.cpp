@@ -76,10 +76,12 @@ std::vector<int> find_parents(const Document& document) {
 
 class GraphWalk {
  public:
-  GraphWalk(const Document& document, const Motion& motion, bool show_hidden, Warnings& warnings)
+  GraphWalk(const Document& document, const Motion& motion, bool show_hidden, const Vec3& origin,
+            Warnings& warnings)
       : document_(document),
         motion_(motion),
         show_hidden_(show_hidden),
+        from_file_(Eigen::Translation3d(Eigen::Vector3d::Zero() - origin.cast<double>())),
         warnings_(warnings),
         parents_(find_parents(document)) {
     graph_.joints.resize(document.model().skins.size());
@@ -94,7 +96,7 @@ class GraphWalk {
     };
     const std::vector<int>& roots = element(document_.model().scenes, scene).nodes;
     std::vector<Entry> stack;
-    for (const int root : roots_to_show(roots, scene)) stack.push_back({root, Transform::Identity(), {}});
+    for (const int root : roots_to_show(roots, scene)) stack.push_back({root, from_file_, {}});
     std::reverse(stack.begin(), stack.end());
     while (!stack.empty()) {
       const Entry entry = stack.back();
@@ -170,10 +172,7 @@ class GraphWalk {
   void visit(int index, const Transform& world, const State& state) {
     const tinygltf::Node& node = element(document_.model().nodes, index);
     if ((state.visible || state.blinks) && node.mesh >= 0) place_mesh(index, node, world, state);
-    if (node.camera >= 0) {
-      graph_.cameras.push_back(make_camera(document_, index, world));
-      graph_.camera_positions.push_back(world.translation());
-    }
+    if (node.camera >= 0) graph_.cameras.push_back(make_camera(document_, index, world));
     const tinygltf::Value* light = find_extension(node.extensions, "KHR_lights_punctual");
     if (!light) return;
     graph_.lights_move |= state.moves || state.blinks;
@@ -183,7 +182,6 @@ class GraphWalk {
     if (!made) return;
     if (!state.visible) made->intensity.setZero();
     graph_.lights.push_back(*std::move(made));
-    graph_.light_positions.push_back(world.translation());
   }
 
   void place_mesh(int index, const tinygltf::Node& node, const Transform& world, const State& state) {
@@ -208,7 +206,7 @@ class GraphWalk {
         add(placement, base);
       }
       for (const Transform& t : read_instances(document_, attributes, where, warnings_)) {
-        add(placement, checked(base * t, where));
+        add(placement, checked(skinned ? from_file_ * t * from_file_.inverse() : base * t, where));
       }
     } else {
       add(std::move(placement), base);
@@ -276,9 +274,10 @@ class GraphWalk {
     }
     for (std::size_t k = unknown.size(); k-- > 0;) {
       const int parent = parents_[static_cast<std::size_t>(unknown[k])];
-      const Transform local = local_transform(document_, unknown[k], warnings_);
+      Transform local = local_transform(document_, unknown[k], warnings_);
       worlds_[static_cast<std::size_t>(unknown[k])] =
-          parent < 0 ? local : *worlds_[static_cast<std::size_t>(parent)] * local;
+          parent < 0 ? local.pretranslate(from_file_.translation())
+                     : *worlds_[static_cast<std::size_t>(parent)] * local;
     }
     return *worlds_[static_cast<std::size_t>(node)];
   }
@@ -297,12 +296,12 @@ class GraphWalk {
   }
 
   void add(Placement placement, const Transform& t) {
-    placement.translation = t.translation();
-    placement.transform.matrix() = t.matrix().topRows<3>().cast<float>();
+    placement.transform = t;
     // Some files hide meshes by scaling them to a line or a point. Such a mesh is invisible, and no ray can
     // be transformed into its space.
-    const Eigen::Matrix3f linear = placement.transform.linear();
-    const bool nothing = normal_matrix(placement.transform).isZero(0.0f) || linear.isZero(0.0f);
+    const Affine single = rounded(t);
+    const Eigen::Matrix3f linear = single.linear();
+    const bool nothing = normal_matrix(single).isZero(0.0f) || linear.isZero(0.0f);
     if (nothing && !placement.moves) {
       warnings_.add("meshes that are scaled to nothing are left out");
       return;
@@ -317,6 +316,7 @@ class GraphWalk {
   const Document& document_;
   const Motion& motion_;
   bool show_hidden_;
+  Transform from_file_;  ///< from the file's coordinates to the world
   Warnings& warnings_;
   std::vector<int> parents_;
   std::vector<std::optional<Transform>> worlds_;  ///< of nodes; empty where they are not known yet
@@ -327,12 +327,12 @@ class GraphWalk {
 }  // namespace
 
 Graph flatten_nodes(const Document& document, const Motion& motion, const LoadOptions& options,
-                    Warnings& warnings) {
+                    const Vec3& origin, Warnings& warnings) {
   const std::size_t count = document.model().scenes.size();
   if (options.scene >= 0 && static_cast<std::size_t>(options.scene) >= count) {
     document.fail("scenes", fmt::format("scene {} requested, expected less than {}", options.scene, count));
   }
-  GraphWalk graph_walk(document, motion, options.show_hidden, warnings);
+  GraphWalk graph_walk(document, motion, options.show_hidden, origin, warnings);
   if (count == 0) {
     warnings.add("the file has no scene");
     return {};

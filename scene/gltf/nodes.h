@@ -15,12 +15,18 @@ namespace gatelight::scene::gltf {
 struct Placement {
   int pose = -1;     ///< into Graph::poses
   std::string name;  ///< Instance::name
-  Affine transform = Affine::Identity();
-  Eigen::Vector3d translation = Eigen::Vector3d::Zero();  ///< of the transform, in double
-  float dielectric_priority = 0.0f;                       ///< Instance::dielectric_priority
-  bool moves = false;                                     ///< Instance::moves
-  bool hidden = false;                                    ///< Instance::hidden
+  Eigen::Affine3d transform = Eigen::Affine3d::Identity();
+  float dielectric_priority = 0.0f;  ///< Instance::dielectric_priority
+  bool moves = false;                ///< Instance::moves
+  bool hidden = false;               ///< Instance::hidden
 };
+
+/// The transform in single precision.
+inline Affine rounded(const Eigen::Affine3d& transform) {
+  Affine result;
+  result.matrix() = transform.matrix().topRows<3>().cast<float>();
+  return result;
+}
 
 struct Graph {
   std::vector<Pose> poses;
@@ -28,14 +34,14 @@ struct Graph {
   std::vector<Placement> placements;
   std::vector<PunctualLight> lights;
   std::vector<Camera> cameras;
-  std::vector<Eigen::Vector3d> light_positions, camera_positions;  ///< world, in double
-  std::vector<char> deforming;                                     ///< by the pose
+  std::vector<char> deforming;  ///< by the pose
   bool lights_move = false;
 };
 
 /// Walks the scene of the options. Poses and placements are the same ones at all times: what is hidden for a
-/// while is hidden then. Throws InputError for cycles, several parents and transforms that are not finite.
+/// while is hidden then. All places are those from `origin` (Scene::origin), from which they are taken in
+/// double. Throws InputError for cycles, several parents and transforms that are not finite.
 Graph flatten_nodes(const Document& document, const Motion& motion, const LoadOptions& options,
-                    Warnings& warnings);
+                    const Vec3& origin, Warnings& warnings);
 
 }  // namespace gatelight::scene::gltf

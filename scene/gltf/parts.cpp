@@ -67,7 +67,7 @@ void Parts::claim(const Document& document, const Graph& graph, bool baked) cons
                    fmt::format("meshes[{}].primitives[{}]", part.mesh, part.primitive));
   }
   for (const Placement& placement : graph.placements) {
-    const bool copied = baked && !placement.moves && is_flat(placement.transform);
+    const bool copied = baked && !placement.moves && is_flat(rounded(placement.transform));
     std::size_t bytes = 0;
     for_each_of(placement.pose, [&](std::size_t i) {
       bytes += sizeof(Instance) + placement.name.size() + (copied ? mesh_bytes(document, parts_[i]) : 0);

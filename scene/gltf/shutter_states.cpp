@@ -40,10 +40,11 @@ ShutterStates::ShutterStates(const Scene& scene) : scene_(scene) {
   motion_.lights.resize(scene.lights.size());
 }
 
-void ShutterStates::add(const Scene& moved) {
-  for (std::size_t i = 0; i < moved.cameras.size(); ++i) motion_.cameras[i].push_back(moved.cameras[i]);
-  for (std::size_t i = 0; i < moved.lights.size(); ++i) {
-    const PunctualLight& light = moved.lights[i];
+void ShutterStates::add(const Graph& graph, bool lights) {
+  for (std::size_t i = 0; i < graph.cameras.size(); ++i) motion_.cameras[i].push_back(graph.cameras[i]);
+  if (!lights) return;
+  for (std::size_t i = 0; i < graph.lights.size(); ++i) {
+    const PunctualLight& light = graph.lights[i];
     motion_.lights[i].push_back({light.position, light.direction, light.side});
   }
 }

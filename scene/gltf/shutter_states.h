@@ -1,6 +1,7 @@
 #pragma once
 // Collects the states of an open shutter.
 
+#include "scene/gltf/nodes.h"
 #include "scene/scene.h"
 #include "scene/shutter.h"
 
@@ -12,8 +13,8 @@ class ShutterStates {
   /// The scene must outlive this object.
   explicit ShutterStates(const Scene& scene);
 
-  /// The cameras of `moved`, and its lights, which may be none.
-  void add(const Scene& moved);
+  /// The cameras, and the lights if they move.
+  void add(const Graph& graph, bool lights);
   void add_transform(std::size_t instance, const Affine& transform);
   /// May be called for several meshes at once.
   void add_vertices(std::size_t mesh, Mesh&& deformed);

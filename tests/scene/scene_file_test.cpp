@@ -57,6 +57,18 @@ TEST(SceneFile, ShowsTimesInAnyOrder) {
   }
 }
 
+TEST(SceneFile, ClaimsItsMemoryOnce) {
+  AnimatedFile file = moving_triangle({{"translation", {1e6, 0, 0}}});
+  const int places = file.add("accessors", {{"componentType", kFloat}, {"type", "VEC3"}, {"count", 300'000}});
+  file.root["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"]["TRANSLATION"] = places;
+  file.move(0, "translation", {file.seconds({0, 1}), file.vectors({1e6f, 0, 0, 1e6f, 1, 0})});
+  const TemporaryFolder folder;
+  SceneFile open(file.write(folder), {.time = 0.0});
+  Scene scene = open.load();
+  for (int k = 1; k < 10; ++k) EXPECT_NO_THROW(open.show(scene, 0.1 * k));
+  EXPECT_EQ(scene.instances.size(), 300'000u);
+}
+
 TEST(SceneFile, KnowsWhatMoves) {
   const SceneMotion figure = load_gltf(kFigure, {.time = 0.0}).motion;
   EXPECT_TRUE(figure.instances);

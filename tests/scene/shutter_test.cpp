@@ -12,17 +12,17 @@
 namespace gatelight::scene {
 namespace {
 
-const std::string kMovingRoom = GATELIGHT_DATA "/moving-room.glb";
+const std::string kShutterRoom = GATELIGHT_DATA "/moving-room.glb";
 constexpr double kTime = 0.7, kOpen = 0.2;
 
 TEST(Shutter, HasTheStatesOfItsTimes) {
-  const Scene scene = load_gltf(kMovingRoom, {.time = kTime, .shutter = kOpen});
+  const Scene scene = load_gltf(kShutterRoom, {.time = kTime, .shutter = kOpen});
   const ShutterMotion& shutter = scene.shutter;
   ASSERT_TRUE(shutter.is_open && shutter.instances);
   std::size_t transforms = 0, vertices = 0, cameras = 0;
   for (std::size_t key = 0; key < kShutterKeys; ++key) {
     const double place = static_cast<double>(key) / (kShutterKeys - 1) - 0.5;
-    const Scene still = load_gltf(kMovingRoom, {.time = kTime + kOpen * place});
+    const Scene still = load_gltf(kShutterRoom, {.time = kTime + kOpen * place});
     EXPECT_FALSE(still.shutter.is_open);
     for (std::size_t i = 0; i < scene.instances.size(); ++i) {
       const std::vector<Affine>& states = shutter.transforms[i];
@@ -50,14 +50,14 @@ TEST(Shutter, HasTheStatesOfItsTimes) {
 }
 
 TEST(Shutter, OnlyWhatMovesHasStates) {
-  const Scene scene = load_gltf(kMovingRoom, {.time = kTime, .shutter = kOpen, .animation = "door"});
+  const Scene scene = load_gltf(kShutterRoom, {.time = kTime, .shutter = kOpen, .animation = "door"});
   std::size_t moving = 0;
   for (std::size_t i = 0; i < scene.instances.size(); ++i) {
     EXPECT_EQ(is_blurred(scene, i), scene.instances[i].moves) << scene.instances[i].name;
     moving += is_blurred(scene, i) ? 1 : 0;
   }
   EXPECT_GT(moving, 0u);
-  const Scene after = load_gltf(kMovingRoom, {.time = 1e4, .shutter = kOpen});
+  const Scene after = load_gltf(kShutterRoom, {.time = 1e4, .shutter = kOpen});
   EXPECT_TRUE(after.shutter.is_open);
   EXPECT_FALSE(after.shutter.instances) << "behind the last key nothing moves";
 }
@@ -96,7 +96,7 @@ TEST(Shutter, LightsTurnAndMove) {
 
 TEST(Shutter, RefusesTimesThatAreNone) {
   for (const double shutter : {-0.1, std::nan(""), HUGE_VAL})
-    EXPECT_THROW(load_gltf(kMovingRoom, {.time = 0.0, .shutter = shutter}), BadOption) << shutter;
+    EXPECT_THROW(load_gltf(kShutterRoom, {.time = 0.0, .shutter = shutter}), BadOption) << shutter;
 }
 
 }  // namespace
