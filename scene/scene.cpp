@@ -44,6 +44,7 @@ std::size_t geometry_bytes(const Scene& scene) {
     total += bytes(m.positions) + bytes(m.normals) + bytes(m.tangents) + bytes(m.uv0) + bytes(m.uv1) +
              bytes(m.colors) + bytes(m.triangles);
   }
+  for (const std::vector<Affine>& states : scene.shutter.transforms) total += states.size() * sizeof(Affine);
   for (const std::vector<DeformedVertices>& states : scene.shutter.vertices) {
     for (const DeformedVertices& v : states) total += bytes(v.positions) + bytes(v.normals) + bytes(v.tangents);
   }

@@ -225,10 +225,14 @@ struct LightPlace {
   friend bool operator==(const LightPlace&, const LightPlace&) = default;
 };
 
-/// What moves while the shutter is open: a list by the scene's numbers, each with the state at some evenly
-/// spaced times, from the opening to the closing; between them it changes linearly (scene/shutter.h). The
-/// list of what stands still is empty. The scene itself is that of the middle. All else stands still there.
+/// What moves while the shutter is open: a list by the scene's numbers, each with the state at two or more
+/// evenly spaced times, from the opening to the closing; between them it changes linearly (scene/shutter.h).
+/// The list of what stands still is empty. The scene itself is that of the middle. All else stands still
+/// there.
 struct ShutterMotion {
+  /// What a clock shows at evenly spaced times, from 0 to 1, with 0.5 in the middle. Twice the same:
+  /// something jumps then. Empty: times are those of the clock.
+  std::vector<float> clock;
   std::vector<std::vector<Affine>> transforms;          ///< of instances
   std::vector<std::vector<DeformedVertices>> vertices;  ///< of meshes
   std::vector<std::vector<LightPlace>> lights;

@@ -247,7 +247,7 @@ Camera PreparedPicture::camera_of_size(int width, int height) const {
     std::vector<Camera> states;
     for (const View& moved : shutter_views(scene, options.camera, aspect_of(options), view))
       states.emplace_back(moved, width, height);
-    made.open_shutter(std::move(states));
+    made.open_shutter(std::move(states), scene.shutter.clock);
   }
   return made;
 }

@@ -90,12 +90,14 @@ CameraRay Camera::ray(float x, float y, const Vec2& lens) const {
   return result;
 }
 
-void Camera::open_shutter(std::vector<Camera> states) {
+void Camera::open_shutter(std::vector<Camera> states, std::vector<float> clock) {
   has_shutter_ = true;
   states_ = std::move(states);
+  clock_ = std::move(clock);
 }
 
-CameraRay Camera::ray(float x, float y, const Vec2& lens, float time) const {
+CameraRay Camera::ray(float x, float y, const Vec2& lens, float seen) const {
+  const float time = scene::time_by_clock(clock_, seen);
   CameraRay result;
   if (states_.empty()) {
     result = ray(x, y, lens);

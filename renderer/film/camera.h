@@ -26,17 +26,17 @@ class Camera {
   const Interior& around() const { return around_; }
   void set_around(const Interior& around) { around_ = around; }
 
-  /// Rays get times from now on. `states`: of the camera, evenly spaced from the opening to the closing of
-  /// the shutter, or empty where it stands still.
-  void open_shutter(std::vector<Camera> states);
+  /// Rays get times from now on. `states`: of the camera, at evenly spaced times from the opening to the
+  /// closing of the shutter, or empty where it stands still. `clock`: scene::ShutterMotion::clock.
+  void open_shutter(std::vector<Camera> states, std::vector<float> clock);
   bool has_shutter() const { return has_shutter_; }
 
   bool has_lens() const { return lens_radius_ > 0.0f && focus_distance_ > 0.0f; }
   /// `x` and `y` are in pixels from the top left corner of the picture. `lens` in [0, 1)^2 is a point of the
   /// lens; that of a pinhole is ignored.
   CameraRay ray(float x, float y, const Vec2& lens) const;
-  /// The same at a time of the open shutter, in [0, 1].
-  CameraRay ray(float x, float y, const Vec2& lens, float time) const;
+  /// The same when a clock shows this in the open shutter, in [0, 1).
+  CameraRay ray(float x, float y, const Vec2& lens, float seen) const;
   /// The ray through the middle of the lens, in the middle of the shutter.
   CameraRay ray(float x, float y) const;
 
@@ -73,6 +73,7 @@ class Camera {
   bool panorama_;
   bool has_shutter_ = false;
   std::vector<Camera> states_;  ///< of the open shutter
+  std::vector<float> clock_;
 };
 
 }  // namespace gatelight::renderer

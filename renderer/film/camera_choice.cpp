@@ -209,6 +209,15 @@ View choose_camera(const scene::Scene& scene, const std::vector<scene::Camera>& 
   return view;
 }
 
+/// The number of states for what turns by this angle while the shutter is open.
+std::size_t states_of_turn(const std::vector<float>& clock, float turn) {
+  const int intervals = clock.empty() ? scene::kShutterKeys - 1 : static_cast<int>(clock.size()) - 1;
+  float longest = clock.empty() ? 1.0f / static_cast<float>(intervals) : 0.0f;
+  for (std::size_t i = 1; i < clock.size(); ++i) longest = std::max(longest, clock[i] - clock[i - 1]);
+  const int parts = scene::parts_of_turn(static_cast<double>(longest * std::abs(turn)), intervals);
+  return static_cast<std::size_t>(intervals * parts + 1);
+}
+
 }  // namespace
 
 View choose_camera(const scene::Scene& scene, const CameraOptions& options, float aspect) {
@@ -218,18 +227,23 @@ View choose_camera(const scene::Scene& scene, const CameraOptions& options, floa
 std::vector<View> shutter_views(const scene::Scene& scene, const CameraOptions& options, float aspect,
                                 const View& view) {
   const std::vector<std::vector<scene::Camera>>& cameras = scene.shutter.cameras;
+  const std::vector<float>& clock = scene.shutter.clock;
   const bool any =
       std::any_of(cameras.begin(), cameras.end(), [](const auto& states) { return !states.empty(); });
   if (!scene.shutter.is_open || (!any && options.turn_in_shutter == 0.0f)) return {};
+  std::size_t count = states_of_turn(clock, options.turn_in_shutter);
+  for (const std::vector<scene::Camera>& states : cameras) count = std::max(count, states.size());
   std::vector<View> views;
   CameraOptions moved = options;
-  for (int key = 0; key < scene::kShutterKeys; ++key) {
-    moved.turn = options.turn + (scene::time_of_key(key) - scene::kShutterMiddle) * options.turn_in_shutter;
-    std::vector<scene::Camera> states = scene.cameras;
-    for (std::size_t i = 0; i < states.size(); ++i) {
-      if (!cameras[i].empty()) states[i] = cameras[i][static_cast<std::size_t>(key)];
+  for (std::size_t state = 0; state < count; ++state) {
+    const float time = scene::time_of_state(state, count);
+    moved.turn =
+        options.turn + (scene::clock_at(clock, time) - scene::kShutterMiddle) * options.turn_in_shutter;
+    std::vector<scene::Camera> now = scene.cameras;
+    for (std::size_t i = 0; i < now.size(); ++i) {
+      if (!cameras[i].empty()) now[i] = scene::camera_at(cameras[i], time);
     }
-    views.push_back(choose_camera(scene, states, moved, aspect));
+    views.push_back(choose_camera(scene, now, moved, aspect));
     views.back().focus_distance = view.focus_distance;
   }
   return views;

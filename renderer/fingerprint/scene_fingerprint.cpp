@@ -167,6 +167,7 @@ std::string shutter_digest(const scene::Scene& scene) {
   const scene::ShutterMotion& shutter = scene.shutter;
   if (!shutter.is_open) return "";
   DigestRecord record;
+  if (!shutter.clock.empty()) add_array(record, shutter.clock);
   const auto add_states = [&](const auto& lists, const auto& add) {
     for (const auto& states : lists) {
       record.add(std::uint64_t{states.size()});

@@ -159,8 +159,16 @@ Color EmissiveTriangles::textured_radiance(const EmissiveTriangle& triangle, con
   return radiance;
 }
 
+float EmissiveTriangles::area_in_shutter(const EmissiveTriangle& triangle) const {
+  float largest = triangle.area;
+  const std::size_t count = scene::count_states(scene_, triangle.instance);
+  for (std::size_t state = 0; state < count; ++state)
+    largest = std::max(largest, moved_to(triangle, scene::time_of_state(state, count)).area);
+  return largest > 2.0f * triangle.area ? largest : triangle.area;
+}
+
 double EmissiveTriangles::estimate_intensity(const EmissiveTriangle& triangle) const {
-  const auto area = static_cast<double>(triangle.area);
+  const auto area = static_cast<double>(area_in_shutter(triangle));
   if (!(area > 0.0)) return 0.0;
   if (triangle.plain) return area * static_cast<double>(luminance(triangle.emission));
 

@@ -42,7 +42,10 @@ class EmissiveTriangles {
     moved = moved_to(triangles_[i], time);
     return moved;
   }
-  bool moves(std::size_t i) const { return moves_ && scene::is_blurred(scene_, triangles_[i].instance); }
+  /// The number of its states in an open shutter; 0 for one that stands still.
+  std::size_t count_states(std::size_t i) const {
+    return moves_ ? scene::count_states(scene_, triangles_[i].instance) : 0;
+  }
   /// Whether any moves while the shutter is open.
   bool any_moves() const { return moves_; }
 
@@ -72,6 +75,9 @@ class EmissiveTriangles {
                           bool cut_alpha) const;
   EmissiveTriangle moved_to(const EmissiveTriangle& triangle, float time) const;
   double estimate_intensity(const EmissiveTriangle& triangle) const;
+  /// The area in the middle, or the largest of all states where that is much smaller: lamps that are hidden
+  /// there, or grow.
+  float area_in_shutter(const EmissiveTriangle& triangle) const;
   void find_duplicates();
 
   const scene::Scene& scene_;

@@ -80,13 +80,14 @@ struct Share {
   }
 };
 
-/// Bounds of a light over the states of an open shutter. `bounds`: in the middle; bounds_at(time): at a time.
+/// Bounds of a light over its `count` states of an open shutter. `bounds`: in the middle; bounds_at(time): at
+/// a time.
 template <typename BoundsAt>
-LightBounds swept(LightBounds bounds, const BoundsAt& bounds_at) {
+LightBounds swept(LightBounds bounds, std::size_t count, const BoundsAt& bounds_at) {
   std::vector<LightBounds> states;
   Box box(bounds.centre);
-  for (int key = 0; key < scene::kShutterKeys; ++key) {
-    states.push_back(bounds_at(scene::time_of_key(key)));
+  for (std::size_t state = 0; state < count; ++state) {
+    states.push_back(bounds_at(scene::time_of_state(state, count)));
     box.extend(states.back().centre);
   }
   bounds.centre = box.center();
@@ -147,8 +148,8 @@ Lights::Lights(const scene::Scene& scene, const Textures& textures, const Enviro
 LightBounds Lights::bounds_of_triangle(std::size_t number) const {
   const double intensity = triangles_.intensity(number);
   const LightBounds middle = bounds_of(triangles_[number], intensity);
-  if (!(intensity > 0.0) || !triangles_.moves(number)) return middle;
-  return swept(middle, [&](float time) {
+  if (!(intensity > 0.0) || triangles_.count_states(number) == 0) return middle;
+  return swept(middle, triangles_.count_states(number), [&](float time) {
     EmissiveTriangle moved;
     return bounds_of(triangles_.at(number, time, moved), intensity);
   });
@@ -157,7 +158,8 @@ LightBounds Lights::bounds_of_triangle(std::size_t number) const {
 LightBounds Lights::bounds_of_placed(std::size_t number) const {
   const LightBounds middle = bounds_of(placed_[number]);
   if (placed_states_.empty() || placed_states_[number].empty()) return middle;
-  return swept(middle, [&](float time) { return bounds_of(placed_at(number, time)); });
+  return swept(middle, placed_states_[number].size(),
+               [&](float time) { return bounds_of(placed_at(number, time)); });
 }
 
 PunctualLight Lights::placed_at(std::size_t number, float time) const {

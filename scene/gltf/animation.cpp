@@ -27,10 +27,10 @@ Animator::Animator(Document& document, Warnings& warnings) {
   }
 }
 
-void Animator::apply(double seconds, Warnings& warnings) const {
+void Animator::apply(double seconds, Warnings& warnings, bool before) const {
   for (const Track& track : tracks_) {
     const Property& property = track.property;
-    Eigen::VectorXd value = evaluate(track.curve, seconds);
+    Eigen::VectorXd value = evaluate(track.curve, seconds, before);
     for (double& number : value) {
       if (number >= property.low && number <= property.high) continue;
       warnings.add(

@@ -16,17 +16,19 @@ class Animator {
   /// ones; those without effect give a warning.
   Animator(Document& document, Warnings& warnings);
 
-  /// Changes the model to its state at a time, in seconds. Each call sets the same values, so the model does
-  /// not depend on the times of earlier calls.
-  void apply(double seconds, Warnings& warnings) const;
-
- private:
   struct Track {
     std::string pointer;
     Curve curve;
     Property property;
   };
 
+  /// Changes the model to its state at a time, in seconds; `before`: just before it (curve.h). Each call sets
+  /// the same values, so the model does not depend on the times of earlier calls.
+  void apply(double seconds, Warnings& warnings, bool before = false) const;
+
+  const std::vector<Track>& tracks() const { return tracks_; }
+
+ private:
   std::vector<Track> tracks_;
 };
 

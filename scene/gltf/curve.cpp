@@ -46,24 +46,91 @@ Eigen::VectorXd between_keys(const Curve& curve, std::size_t key, double seconds
   return (1.0 - u) * from + u * to;
 }
 
-Eigen::VectorXd value_at(const Curve& curve, double time) {
+/// The number of keys before a time, or until it.
+std::size_t keys_before(const Curve& curve, float time) {
+  const std::vector<float>& times = *curve.times;
+  return static_cast<std::size_t>(std::lower_bound(times.begin(), times.end(), time) - times.begin());
+}
+std::size_t keys_until(const Curve& curve, float time) {
+  const std::vector<float>& times = *curve.times;
+  return static_cast<std::size_t>(std::upper_bound(times.begin(), times.end(), time) - times.begin());
+}
+
+double seconds_after(const Curve& curve, std::size_t key) {
+  return static_cast<double>((*curve.times)[key + 1]) - static_cast<double>((*curve.times)[key]);
+}
+
+Eigen::VectorXd value_at(const Curve& curve, double time, bool before) {
   const std::vector<float>& times = *curve.times;
   // Files hold times in single precision. Rounded alike, 0.1 is the key at 0.1.
   const auto rounded = static_cast<float>(time);
-  const auto next =
-      static_cast<std::size_t>(std::upper_bound(times.begin(), times.end(), rounded) - times.begin());
+  const std::size_t next = before ? keys_before(curve, rounded) : keys_until(curve, rounded);
   if (next == 0 || next == times.size()) return part_of_key(curve, next == 0 ? 0 : next - 1, kValue);
   const double from = static_cast<double>(times[next - 1]);
-  const double seconds = static_cast<double>(times[next]) - from;
+  const double seconds = seconds_after(curve, next - 1);
   return between_keys(curve, next - 1, seconds, (static_cast<double>(rounded) - from) / seconds);
 }
 
 }  // namespace
 
-Eigen::VectorXd evaluate(const Curve& curve, double time) {
-  Eigen::VectorXd value = value_at(curve, time);
+Eigen::VectorXd evaluate(const Curve& curve, double time, bool before) {
+  Eigen::VectorXd value = value_at(curve, time, before);
   if (curve.shape.is_rotation) value = unit_quaternion(value).coeffs();
   return value;
+}
+
+Passage passage_at(const Curve& curve, float time) {
+  constexpr double kStep = 1e-5, kLeast = 1e-3;  // of the seconds between two keys, of a slope
+  // On each side the value, its slope, and the mean slope to the next key.
+  struct Side {
+    Eigen::VectorXd value, slope;
+    double change = 0.0;
+  };
+  const auto side = [&](std::size_t key, std::size_t from, bool before) {
+    Side s{part_of_key(curve, key, kValue), Eigen::VectorXd::Zero(static_cast<Eigen::Index>(curve.width))};
+    const bool holds = before ? key == 0 : key + 1 == curve.times->size();
+    if (holds) return s;
+    const double seconds = seconds_after(curve, from);
+    const auto at = [&](double u) { return between_keys(curve, from, seconds, u); };
+    const Eigen::VectorXd first = at(0.0), last = at(1.0);
+    s.value = before ? last : first;
+    s.slope = (before ? Eigen::VectorXd(last - at(1.0 - kStep)) : Eigen::VectorXd(at(kStep) - first)) /
+              (kStep * seconds);
+    s.change = (last - first).norm() / seconds;
+    return s;
+  };
+  const std::size_t first = keys_before(curve, time), last = keys_until(curve, time) - 1;
+  const Side before = side(first, first - 1, true);
+  Side after = side(last, last, false);
+  if (curve.shape.is_rotation && before.value.dot(after.value) < 0.0) {  // the same rotation
+    after.value *= -1.0;
+    after.slope *= -1.0;
+  }
+  const double size = std::max(before.value.norm(), after.value.norm());
+  const double rounding = curve.shape.is_rotation ? 1e-6 : 1e-8;
+  if ((after.value - before.value).norm() > rounding * size) return Passage::jump;
+  const double slope = std::max({before.slope.norm(), after.slope.norm(), before.change, after.change});
+  return (after.slope - before.slope).norm() > kLeast * slope ? Passage::bend : Passage::smooth;
+}
+
+double turn_between(const Curve& curve, double from, double to) {
+  if (curve.interpolation == Interpolation::step) return 0.0;
+  const int steps = curve.interpolation == Interpolation::cubic_spline ? 8 : 1;
+  double turn = 0.0;
+  const std::size_t next = keys_until(curve, static_cast<float>(from));
+  for (std::size_t key = next == 0 ? 0 : next - 1; key + 1 < curve.times->size(); ++key) {
+    const auto start = static_cast<double>((*curve.times)[key]);
+    if (start >= to) break;
+    const double seconds = seconds_after(curve, key);
+    if (!(seconds > 0.0)) continue;
+    const double first = std::max(0.0, (from - start) / seconds),
+                 last = std::min(1.0, (to - start) / seconds);
+    const auto at = [&](int step) {
+      return unit_quaternion(between_keys(curve, key, seconds, first + (last - first) * step / steps));
+    };
+    for (int step = 0; step < steps && first < last; ++step) turn += at(step).angularDistance(at(step + 1));
+  }
+  return turn;
 }
 
 Curve::Times CurveReader::read_times(int accessor) {

@@ -1,6 +1,7 @@
 #pragma once
 // Values over time: keys, and the interpolation between them.
 
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <optional>
@@ -30,8 +31,15 @@ struct Curve {
 };
 
 /// The value at a time; before the first key and after the last one that key's value. Rotations are unit
-/// quaternions.
-Eigen::VectorXd evaluate(const Curve& curve, double time);
+/// quaternions. `before`: the limit from earlier times, which differs where the value jumps.
+Eigen::VectorXd evaluate(const Curve& curve, double time, bool before = false);
+
+/// How a value goes through the time of a key.
+enum class Passage : std::uint8_t { smooth, bend, jump };
+Passage passage_at(const Curve& curve, float time);
+
+/// The angle in radians that a rotation turns between two times, however often.
+double turn_between(const Curve& curve, double from, double to);
 
 /// Reads the curves of a document. Channels share their times.
 class CurveReader {

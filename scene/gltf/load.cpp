@@ -8,6 +8,7 @@
 #include <span>
 #include <utility>
 
+#include "base/platform/memory.h"
 #include "base/platform/threads.h"
 #include "scene/bake.h"
 #include "scene/doubled_lamps.h"
@@ -24,6 +25,8 @@
 #include "scene/gltf/parts.h"
 #include "scene/gltf/primitives.h"
 #include "scene/gltf/shutter_states.h"
+#include "scene/gltf/shutter_times.h"
+#include "scene/shutter.h"
 
 namespace gatelight::scene {
 namespace gltf {
@@ -125,6 +128,13 @@ class Loader {
     }
     if (scene.motion.image_light) take_image_light(scene);
     if (scene.motion.instances) move_instances(graph, scene);
+    for (std::size_t i = 0; i < scene.shutter.transforms.size(); ++i) {
+      const std::vector<Affine>& states = scene.shutter.transforms[i];
+      Instance& instance = scene.instances[i];
+      if (!instance.hidden || states.empty()) continue;
+      instance.hidden = false;
+      instance.transform = transform_at(states, kShutterMiddle);
+    }
     scene.warnings = warnings_.take();
   }
 
@@ -220,33 +230,53 @@ class Loader {
   void open_shutter(Scene& scene, double seconds) {
     scene.shutter = {};
     if (!(options_.shutter > 0.0)) return;
-    ShutterStates states(scene);
-    for (int key = 0; key < kShutterKeys; ++key) {
-      const auto from_middle = static_cast<double>(time_of_key(key) - kShutterMiddle);
-      animator_->apply(seconds + options_.shutter * from_middle, warnings_);
-      const Graph graph = flatten_again(scene);
-      states.add(graph, scene.motion.lights);
-      if (!scene.motion.instances) continue;
-      load_each(
-          scene.meshes.size(),
-          [&](std::size_t m, Warnings& warnings) {
-            const int part = scene.meshes[m].deforming;
-            if (part >= 0)
-              states.add_vertices(m, load_part(graph, static_cast<std::size_t>(part), scene, warnings));
-          },
-          warnings_);
-      Box bounds;
-      for (std::size_t i = 0; i < scene.instances.size(); ++i) {
-        Instance instance = scene.instances[i];
-        if (!instance.moves) continue;
-        put(element(graph.placements, instance.placement), instance);
-        states.add_transform(i, instance.transform);
-        for (const Vec3& p : states.positions(static_cast<std::size_t>(instance.mesh)))
-          bounds.extend(instance.transform * p);
+    const ShutterTimes times(*animator_, seconds, options_.shutter, warnings_);
+    times.note_turns(*animator_, motion_, warnings_);
+    ShutterStates states(scene, flatten_again(scene), *parts_, times);
+    require_memory(states.bytes());
+    for (const int division : states.divisions()) {
+      for (int k = 0; k <= division * times.intervals(); ++k) {
+        const ShutterTimes::Moment moment = times.moment(k, division);
+        animator_->apply(moment.seconds, warnings_, moment.before);
+        add_states(scene, division, states);
       }
-      check_bounds(scene, bounds);
     }
     scene.shutter = states.finish();
+  }
+
+  /// Those at the model's present time.
+  void add_states(const Scene& scene, int division, ShutterStates& states) {
+    const Graph graph = flatten_again(scene);
+    states.add(graph, division);
+    if (!scene.motion.instances) return;
+    load_each(
+        scene.meshes.size(),
+        [&](std::size_t m, Warnings& warnings) {
+          if (states.wants_vertices(m, division))
+            states.add_vertices(
+                m, load_part(graph, static_cast<std::size_t>(scene.meshes[m].deforming), scene, warnings));
+        },
+        warnings_);
+    Box bounds;
+    for (std::size_t i = 0; i < scene.instances.size(); ++i) {
+      const bool moves = states.wants_transform(i, division);
+      if (moves) {
+        Instance instance = scene.instances[i];
+        put(element(graph.placements, instance.placement), instance);
+        states.add_transform(i, instance);
+      }
+      if (moves || states.wants_vertices(static_cast<std::size_t>(scene.instances[i].mesh), division))
+        bounds.extend(states.bounds(i));
+    }
+    check_bounds(scene, bounds);
+  }
+
+  void require_memory(std::size_t bytes) const {
+    const MemoryRoom room = memory_room();
+    if (bytes > room.bytes)
+      throw OutOfMemory(
+          fmt::format("{}: what moves while the shutter is open needs {} MiB, and {} leaves {} MiB", path_,
+                      bytes >> 20, room.limit, room.bytes >> 20));
   }
 
   void take_image_light(Scene& scene) {

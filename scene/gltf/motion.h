@@ -12,6 +12,8 @@ struct NodeMotion {
   bool place = false;  ///< translation, rotation or scale
   bool weights = false;
   bool visibility = false;
+  /// The largest angle in radians by which its rotation turns in an interval of the open shutter.
+  double turn = 0.0;
 };
 
 struct Motion {
@@ -19,6 +21,7 @@ struct Motion {
   bool lights = false;  ///< their properties, not their nodes
   bool image_light = false;
   bool materials = false;
+  bool turns = false;  ///< some NodeMotion::turn is not 0
 };
 
 Motion find_motion(const Document& document);

@@ -118,12 +118,14 @@ class GraphWalk {
     bool visible = true;
     bool moves = false;   ///< its place in the world changes with the time
     bool blinks = false;  ///< its visibility does
+    double turn = 0.0;    ///< Placement::turn
   };
 
   State state_of(int index, const State& parent) const {
     const NodeMotion& motion = element(motion_.nodes, index);
     return {parent.visible && (show_hidden_ || is_visible(element(document_.model().nodes, index))),
-            parent.moves || motion.place, parent.blinks || (motion.visibility && !show_hidden_)};
+            parent.moves || motion.place, parent.blinks || (motion.visibility && !show_hidden_),
+            parent.turn + motion.turn};
   }
 
   bool moves(int node) const {
@@ -131,6 +133,13 @@ class GraphWalk {
       if (element(motion_.nodes, i).place) return true;
     }
     return false;
+  }
+
+  double turn_of(int node) const {
+    double turn = 0.0;
+    for (int i = node; i >= 0; i = parents_[static_cast<std::size_t>(i)])
+      turn += element(motion_.nodes, i).turn;
+    return turn;
   }
 
   /// The listed nodes without repetitions and without those that are shown below another.
@@ -172,7 +181,10 @@ class GraphWalk {
   void visit(int index, const Transform& world, const State& state) {
     const tinygltf::Node& node = element(document_.model().nodes, index);
     if ((state.visible || state.blinks) && node.mesh >= 0) place_mesh(index, node, world, state);
-    if (node.camera >= 0) graph_.cameras.push_back(make_camera(document_, index, world));
+    if (node.camera >= 0) {
+      graph_.cameras.push_back(make_camera(document_, index, world));
+      graph_.camera_turn = std::max(graph_.camera_turn, state.turn);
+    }
     const tinygltf::Value* light = find_extension(node.extensions, "KHR_lights_punctual");
     if (!light) return;
     graph_.lights_move |= state.moves || state.blinks;
@@ -182,6 +194,7 @@ class GraphWalk {
     if (!made) return;
     if (!state.visible) made->intensity.setZero();
     graph_.lights.push_back(*std::move(made));
+    graph_.light_turns.push_back(state.turn);
   }
 
   void place_mesh(int index, const tinygltf::Node& node, const Transform& world, const State& state) {
@@ -194,6 +207,7 @@ class GraphWalk {
     placement.moves = (!skinned && state.moves) || state.blinks ||
                       graph_.deforming[static_cast<std::size_t>(placement.pose)] != 0;
     placement.hidden = !state.visible;
+    placement.turn = skinned ? 0.0 : state.turn;
     placement.name = node.name.empty() ? mesh.name : node.name;
     if (placement.name.empty()) placement.name = fmt::format("node {}", index);
     placement.dielectric_priority = dielectric_priority(index, node);
@@ -240,6 +254,7 @@ class GraphWalk {
     const auto [entry, is_new] = pose_numbers_.try_emplace(pose, static_cast<int>(graph_.poses.size()));
     if (is_new) {
       graph_.deforming.push_back(morphs || (pose.skin >= 0 && bends(pose.skin)) ? 1 : 0);
+      graph_.pose_turns.push_back(pose.skin >= 0 ? turn_of_joints(pose.skin) : 0.0);
       graph_.poses.push_back(std::move(pose));
     }
     return entry->second;
@@ -248,6 +263,14 @@ class GraphWalk {
   bool bends(int skin) const {
     const std::vector<int>& joints = element(document_.model().skins, skin).joints;
     return std::any_of(joints.begin(), joints.end(), [this](int joint) { return moves(joint); });
+  }
+
+  double turn_of_joints(int skin) const {
+    double turn = 0.0;
+    if (!motion_.turns) return turn;
+    for (const int joint : element(document_.model().skins, skin).joints)
+      turn = std::max(turn, turn_of(joint));
+    return turn;
   }
 
   void load_joints(int index) {

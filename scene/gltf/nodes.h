@@ -19,6 +19,7 @@ struct Placement {
   float dielectric_priority = 0.0f;  ///< Instance::dielectric_priority
   bool moves = false;                ///< Instance::moves
   bool hidden = false;               ///< Instance::hidden
+  double turn = 0.0;                 ///< of its node and those above (NodeMotion::turn)
 };
 
 /// The transform in single precision.
@@ -34,7 +35,10 @@ struct Graph {
   std::vector<Placement> placements;
   std::vector<PunctualLight> lights;
   std::vector<Camera> cameras;
-  std::vector<char> deforming;  ///< by the pose
+  std::vector<char> deforming;      ///< by the pose
+  std::vector<double> pose_turns;   ///< by the pose: the largest of a joint
+  std::vector<double> light_turns;  ///< by the light
+  double camera_turn = 0.0;         ///< the largest of a camera
   bool lights_move = false;
 };
 

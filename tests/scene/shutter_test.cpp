@@ -13,7 +13,8 @@ namespace gatelight::scene {
 namespace {
 
 const std::string kShutterRoom = GATELIGHT_DATA "/moving-room.glb";
-constexpr double kTime = 0.7, kOpen = 0.2;
+/// Between two keys of all animations, which are 24 in a second.
+constexpr double kTime = 17.5 / 24.0, kOpen = 0.04;
 
 TEST(Shutter, HasTheStatesOfItsTimes) {
   const Scene scene = load_gltf(kShutterRoom, {.time = kTime, .shutter = kOpen});
@@ -84,7 +85,7 @@ TEST(Shutter, LightsTurnAndMove) {
   file.move(1, "rotation", {file.seconds({0, 1}), file.quaternions({0, 0, 0, 1, 0, half, 0, half})});
   const Scene scene = file.load({.time = 0.5, .shutter = 1.0});
   const std::vector<LightPlace>& states = scene.shutter.lights.at(0);
-  ASSERT_EQ(states.size(), std::size_t{kShutterKeys});
+  ASSERT_EQ(states.size(), std::size_t{2 * (kShutterKeys - 1) + 1}) << "a quarter turn";
   for (const float time : {0.0f, 0.3f, 1.0f}) {
     const LightPlace place = light_at(states, time);
     EXPECT_TRUE(place.position.isApprox(Vec3(4.0f * time, 0, 0), 1e-5f)) << place.position.transpose();
