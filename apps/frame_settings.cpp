@@ -23,7 +23,7 @@ RenderSettings settings_of_frame(const RenderSettings& whole, int frame) {
   settings.load.time = whole.frames.seconds(frame);
   settings.render.checkpoint = {};
   settings.render.cache.cache_out.clear();
-  settings.frames.range = FrameRange{frame, frame, 1};
+  settings.frames.range = FrameList{{{frame, frame}}};
   settings.render.camera = camera_of_frame(whole, frame);
   if (whole.exposure) settings.image.display.exposure = *whole.exposure;
   for (std::string& output : settings.outputs) output = name_of_frame(output, frame);

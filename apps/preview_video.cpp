@@ -59,7 +59,7 @@ std::size_t write_film(const RenderSettings& settings, const std::vector<int>& f
                        const FilmCallbacks& callbacks) {
   const std::string source = film_source(settings.outputs);
   // With steps the film keeps the animation's speed.
-  FilmSize size{.fps = settings.frames.fps / std::abs(settings.frames.range->step)};
+  FilmSize size{.fps = settings.frames.fps / std::abs(common_step(settings.frames.range->numbers()))};
   std::optional<VideoEncoder> encoder;
   LeftOut left_out;
   std::size_t done = 0, added = 0;

@@ -12,6 +12,7 @@
 #include "apps/reports/frame_report.h"
 #include "apps/settings/camera_names.h"
 #include "apps/settings/frame_flags.h"
+#include "apps/settings/picture_output.h"
 #include "apps/terminal/errors.h"
 #include "apps/terminal/log.h"
 #include "apps/terminal/signals.h"
@@ -36,10 +37,24 @@ std::optional<Failure> described(const std::exception_ptr& error) {
 }  // namespace
 
 int RenderRun::render_frames(scene::SceneFile& file, scene::Scene& scene) {
-  whole_ = pictures_of(settings_, scene).front();
+  int code = kDone;
+  for (const RenderSettings& of_camera : pictures_of(settings_, scene)) {
+    whole_ = of_camera;
+    failed_frames_.clear();
+    film_frames_ = 0;
+    const int ended = render_film(file, scene);
+    if (ended >= kSignalBase) return ended;
+    if (ended != kDone) code = ended;
+  }
+  if (failed_frame_) std::rethrow_exception(failed_frame_);
+  return code;
+}
+
+int RenderRun::render_film(scene::SceneFile& file, scene::Scene& scene) {
   const int groups = whole_.frames.groups;
   const std::vector<int> all = whole_.frames.range->numbers();
-  const std::vector<int> frames = frames_of_group(all, groups, number_of_group(groups, all_.ranks));
+  const std::set<int> existing = existing_frames(all);
+  if (existing.size() == all.size()) return end_film(all, 0, 0.0);
   settings_ = settings_of_frame(whole_, all.front());
   progress_.phase("build");
   const Clock::time_point begin = Clock::now();
@@ -47,8 +62,13 @@ int RenderRun::render_frames(scene::SceneFile& file, scene::Scene& scene) {
   if (whole_.render.choose_integrator) renderer::use_integrator(whole_.render, renderer.integrator());
   check_frame_groups(whole_.frames, renderer.integrator());
   const std::size_t warnings_of_loading = report_.warnings.size();
+  const std::optional<int> done = begin_frames(file, scene, renderer, all);
+  std::vector<int> frames(done ? std::find(all.begin(), all.end(), *done) + 1 : all.begin(), all.end());
+  std::erase_if(frames, [&](int frame) { return existing.contains(frame); });
+  frames = frames_of_group(frames, groups, number_of_group(groups, all_.ranks));
+  if (!frames.empty()) last_frame_ = frames.back();
   int number = 0;
-  std::size_t i = begin_frames(file, scene, renderer, frames);
+  std::size_t i = 0;
   for (; i < frames.size(); ++i) {
     report_.warnings.resize(warnings_of_loading);
     progress_.begin_frame(frames[i], i, frames.size());
@@ -66,12 +86,25 @@ int RenderRun::render_frames(scene::SceneFile& file, scene::Scene& scene) {
   }
   if (groups > 1) return end_groups(number, i, all, seconds_since(begin));
   if (number != 0) return stop_frames(number, i, frames.size());
-  if (group_.ranks.first()) {
-    if (const int stopped = make_film(frames); stopped != 0) return kSignalBase + stopped;
-    end_frames(frames.size(), seconds_since(begin));
+  return end_film(all, frames.size(), seconds_since(begin));
+}
+
+std::set<int> RenderRun::existing_frames(const std::vector<int>& frames) {
+  std::set<int> existing;
+  if (!whole_.skip_existing) return existing;
+  for (const int frame : frames) {
+    if (renderer::agreed(all_.ranks, are_there(settings_of_frame(whole_, frame).outputs)))
+      existing.insert(frame);
   }
-  if (failed_frame_) std::rethrow_exception(failed_frame_);
-  return kDone;
+  note_skipped(existing.size(), frames.size());
+  return existing;
+}
+
+void RenderRun::make_folders(int frame) const {
+  if (!group_.ranks.first()) return;
+  for (const std::string& output : whole_.outputs) make_folders_of_frame(output, frame);
+  for (const std::string& file : {whole_.stats, whole_.render.cache.cache_out})
+    make_folders_of_frame(file, frame);
 }
 
 void RenderRun::show_frame(scene::SceneFile& file, scene::Scene& scene, renderer::Renderer& renderer,
@@ -80,8 +113,8 @@ void RenderRun::show_frame(scene::SceneFile& file, scene::Scene& scene, renderer
   renderer.scene_moved(camera_of_frame(whole_, frame));
 }
 
-std::size_t RenderRun::begin_frames(scene::SceneFile& file, scene::Scene& scene, renderer::Renderer& renderer,
-                                    const std::vector<int>& frames) {
+std::optional<int> RenderRun::begin_frames(scene::SceneFile& file, scene::Scene& scene,
+                                           renderer::Renderer& renderer, const std::vector<int>& frames) {
   const std::string& checkpoint = whole_.render.checkpoint.file;
   const bool resumed = whole_.render.checkpoint.resume && std::filesystem::exists(checkpoint);
   const std::string before = resumed ? checkpoint : whole_.render.cache.cache_in;
@@ -94,11 +127,11 @@ std::size_t RenderRun::begin_frames(scene::SceneFile& file, scene::Scene& scene,
     show_frame(file, scene, renderer, frames.front());
   }
   renderer.begin_frames(whole_.frames.seconds(frames.front()));
-  return 0;
+  return {};
 }
 
-std::size_t RenderRun::go_on(scene::SceneFile& file, scene::Scene& scene, renderer::Renderer& renderer,
-                             const std::vector<int>& frames, const std::string& before, bool resumed) {
+std::optional<int> RenderRun::go_on(scene::SceneFile& file, scene::Scene& scene, renderer::Renderer& renderer,
+                                    const std::vector<int>& frames, const std::string& before, bool resumed) {
   const renderer::FrameStatus status = renderer::read_frame_status(before);
   if (!status.of_animation && scene.motion.any())
     throw CacheFileError(fmt::format("{}: made of the file's nodes, expected a cache of --frames", before));
@@ -106,20 +139,20 @@ std::size_t RenderRun::go_on(scene::SceneFile& file, scene::Scene& scene, render
   renderer.scene_moved(camera_of_frame(whole_, status.frame.value_or(frames.front())));
   renderer.begin_frames(status.layout_seconds, before);
   if (status.exposure && !whole_.exposure) whole_.exposure = status.exposure;
-  if (!status.frame) return 0;
+  if (!status.frame) return {};
   show_frame(file, scene, renderer, *status.frame);
   renderer.restore_frame(before);
-  if (!resumed) return 0;
-  const auto last = std::find(frames.begin(), frames.end(), *status.frame);
-  if (last == frames.end())
+  if (!resumed) return {};
+  if (std::find(frames.begin(), frames.end(), *status.frame) == frames.end())
     throw CacheFileError(
         fmt::format("{}: it ends with frame {}, expected one of --frames", before, *status.frame));
-  return static_cast<std::size_t>(last - frames.begin()) + 1;
+  return status.frame;
 }
 
 int RenderRun::make_frame(scene::SceneFile& file, scene::Scene& scene, renderer::Renderer& renderer,
                           int frame) {
   start_ = Clock::now();
+  make_folders(frame);
   settings_ = settings_of_frame(whole_, frame);
   show_frame(file, scene, renderer, frame);
   for (const std::string& warning : scene.warnings) warn(warning);
@@ -130,7 +163,7 @@ int RenderRun::make_frame(scene::SceneFile& file, scene::Scene& scene, renderer:
   if (const int number = signal(); number != 0) return number;
   keep_exposure(&picture);
   // The first frame is shown by its own light, as any picture is.
-  if (frame != whole_.frames.range->first) settings_ = settings_of_frame(whole_, frame);
+  if (frame != whole_.frames.range->first()) settings_ = settings_of_frame(whole_, frame);
   end_picture(std::move(picture), renderer.statistics());
   if (!group_.ranks.first()) return 0;
   write_state(renderer, frame);
@@ -151,9 +184,8 @@ void RenderRun::keep_exposure(const renderer::Picture* picture) {
 void RenderRun::write_state(const renderer::Renderer& renderer, int frame) {
   const std::string& checkpoint = whole_.render.checkpoint.file;
   const std::string& cache = whole_.render.cache.cache_out;
-  const bool last = frame == whole_.frames.range->final();
   if (!checkpoint.empty()) renderer.write_frame(checkpoint, whole_.exposure);
-  if (!cache.empty() && (has_frame_place(cache) || last))
+  if (!cache.empty() && (has_frame_place(cache) || frame == last_frame_))
     renderer.write_frame(name_of_frame(cache, frame), whole_.exposure);
 }
 
@@ -221,9 +253,17 @@ int RenderRun::end_groups(int signal, std::size_t done, const std::vector<int>& 
   }
   code = renderer::agreed(all_.ranks, code);
   failure = shared_failure(all_.ranks, failure);
+  failed_frame_ = nullptr;  // it is reported here
   if (code != kDone || !failure) return code;
   print_failure(*failure);
   return failure->code;
+}
+
+int RenderRun::end_film(const std::vector<int>& all, std::size_t rendered, double seconds) {
+  if (!group_.ranks.first()) return kDone;
+  if (const int stopped = make_film(all); stopped != 0) return kSignalBase + stopped;
+  end_frames(rendered, seconds);
+  return kDone;
 }
 
 void RenderRun::end_frames(std::size_t count, double seconds) {

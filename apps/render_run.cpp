@@ -79,7 +79,15 @@ scene::LoadOptions RenderRun::load_options() const {
 }
 
 int RenderRun::render_stills(const scene::Scene& scene) {
-  const std::vector<RenderSettings> pictures = pictures_of(settings_, scene);
+  std::vector<RenderSettings> pictures = pictures_of(settings_, scene);
+  if (settings_.skip_existing) {
+    const std::size_t count = pictures.size();
+    std::erase_if(pictures, [&](const RenderSettings& picture) {
+      return renderer::agreed(all_.ranks, are_there(picture.outputs));
+    });
+    note_skipped(count - pictures.size(), count);
+    if (pictures.empty()) return kDone;
+  }
   settings_ = pictures.front();
   progress_.phase("build");
   const std::size_t warnings_of_loading = report_.warnings.size();
@@ -214,6 +222,17 @@ void RenderRun::print_results() {
   if (!as_json && !settings_.quiet) print_status(summary(settings_, report_));
   if (report_.signal != 0) {
     print_notice(stop_notice(settings_, report_), kSignalBase + report_.signal);
+  }
+}
+
+void RenderRun::note_skipped(std::size_t skipped, std::size_t count) {
+  if (!all_.ranks.first()) return;
+  if (settings_.progress == ProgressMode::json) {
+    print_json_line({{"event", "skipped"}, {"skipped", skipped}, {"pictures", count}});
+  } else if (!settings_.quiet) {
+    progress_.clear();
+    print_status(
+        fmt::format("skipped   {} of {}, which {} there\n", skipped, count, skipped == 1 ? "is" : "are"));
   }
 }
 

@@ -37,13 +37,18 @@ class RenderRun {
 
   // Frames of an animation (render_frames.cpp).
   int render_frames(scene::SceneFile& file, scene::Scene& scene);
+  /// The frames of one camera, which whole_ has.
+  int render_film(scene::SceneFile& file, scene::Scene& scene);
+  /// With --skip-existing: the frames whose files are there.
+  std::set<int> existing_frames(const std::vector<int>& frames);
+  void make_folders(int frame) const;
   void show_frame(scene::SceneFile& file, scene::Scene& scene, renderer::Renderer& renderer, int frame);
-  /// Makes or reads the cache. Returns the index of the first frame to render.
-  std::size_t begin_frames(scene::SceneFile& file, scene::Scene& scene, renderer::Renderer& renderer,
-                           const std::vector<int>& frames);
-  /// Takes cache and light of `before`. Where the run is resumed, the frames up to that one are done.
-  std::size_t go_on(scene::SceneFile& file, scene::Scene& scene, renderer::Renderer& renderer,
-                    const std::vector<int>& frames, const std::string& before, bool resumed);
+  /// Makes or reads the cache. Returns the last frame that is done, where the run is resumed.
+  std::optional<int> begin_frames(scene::SceneFile& file, scene::Scene& scene, renderer::Renderer& renderer,
+                                  const std::vector<int>& frames);
+  /// Takes cache and light of `before`.
+  std::optional<int> go_on(scene::SceneFile& file, scene::Scene& scene, renderer::Renderer& renderer,
+                           const std::vector<int>& frames, const std::string& before, bool resumed);
   /// Writes --checkpoint and --cache-out.
   void write_state(const renderer::Renderer& renderer, int frame);
   /// The number of a signal that ended it, or 0.
@@ -54,6 +59,8 @@ class RenderRun {
   int stop_frames(int signal, std::size_t done, std::size_t count);
   /// After the frames of each group: reports those of all, makes the film. Returns the exit code.
   int end_groups(int signal, std::size_t done, const std::vector<int>& frames, double seconds);
+  /// After the frames of one process or group: makes the film and reports. Returns the exit code.
+  int end_film(const std::vector<int>& all, std::size_t rendered, double seconds);
   void end_frames(std::size_t count, double seconds);
   /// Keeps a failure of one frame, so that the others are rendered.
   void note_failed_frame(int frame);
@@ -73,6 +80,8 @@ class RenderRun {
   void write_snapshot(const renderer::Picture& picture, const renderer::RenderStatistics& statistics);
   void write_results(renderer::Picture picture);
   void print_results();
+  /// How many pictures --skip-existing has left out.
+  void note_skipped(std::size_t skipped, std::size_t count);
   void note_failed_output(const std::exception_ptr& error, bool again);
   /// The signal that some rank received; 0: none.
   int signal() const;
@@ -97,6 +106,7 @@ class RenderRun {
   std::exception_ptr failed_output_;  ///< the last failure of a checkpoint or cache file
   std::exception_ptr failed_frame_;   ///< the first one, or that of the film
   std::set<int> failed_frames_;
+  int last_frame_ = 0;           ///< to be rendered
   std::size_t film_frames_ = 0;  ///< frames in the film; 0: there is none
 };
 

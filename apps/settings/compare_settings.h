@@ -19,15 +19,15 @@ inline constexpr renderer::Choice<Map> kMaps[] = {
 struct CompareSettings {
   std::string reference;  ///< with `frames`, the name has a place for their number; so has `test`
   std::string test;
-  std::vector<std::string> halves;   ///< empty, or the second reference and the second test
-  std::optional<FrameRange> frames;  ///< empty: two pictures
+  std::vector<std::string> halves;  ///< empty, or the second reference and the second test
+  std::optional<FrameList> frames;  ///< empty: two pictures
   std::string metrics;
   std::string json;
   std::string error_map;
   Map map = Map::flip;
   renderer::FlipOptions flip;
 
-  bool has_pairs_of_frames() const { return frames && frames->first != frames->final(); }
+  bool has_pairs_of_frames() const { return frames && !frames->is_single(); }
 };
 
 }  // namespace gatelight::apps

@@ -79,7 +79,7 @@ void complete_view(RenderSettings& settings) {
 
 void complete_frames(RenderSettings& settings) {
   FrameSettings& frames = settings.frames;
-  if (frames.turntable > 0 && !frames.range) frames.range = FrameRange{0, frames.turntable - 1, 1};
+  if (frames.turntable > 0 && !frames.range) frames.range = FrameList{{{0, frames.turntable - 1}}};
   settings.load.shutter = frames.shutter_seconds();
   if (!frames.range) {
     if (settings.given.contains("--fps") && !frames.shutter.is_open())
@@ -89,9 +89,7 @@ void complete_frames(RenderSettings& settings) {
     return;
   }
   if (settings.load.time) throw UsageError("--time and --frames exclude each other, expected one of them");
-  settings.load.time = frames.seconds(frames.range->first);
-  if (settings.render.camera.name == "all" && !settings.render.camera.look_at)
-    throw UsageError("--camera: 'all' does not go with --frames, expected one camera");
+  settings.load.time = frames.seconds(frames.range->first());
 }
 
 /// Files of several frames need a place for their number; those of one picture have none.
@@ -99,8 +97,7 @@ void check_frame_names(const RenderSettings& settings) {
   const auto check = [&](const char* flag, const std::string& name) {
     if (name.empty()) return;
     if (!settings.frames.range) return refuse_frame_place(flag, name);
-    const FrameRange& range = *settings.frames.range;
-    if (range.first != range.last) require_frame_place(flag, name);
+    if (!settings.frames.range->is_single()) require_frame_place(flag, name);
   };
   for (const std::string& output : settings.outputs) check("--output", output);
   check("--stats", settings.stats);
@@ -295,10 +292,14 @@ void check_inputs(const RenderSettings& settings) {
 }
 
 void check_outputs(const RenderSettings& settings) {
-  for (const std::string& output : settings.outputs) check_picture_output(output);
+  const auto first_name = [&frames = settings.frames.range](const std::string& name) {
+    return frames ? name_in_given_folder(name, frames->first()) : name;
+  };
+  for (const std::string& output : settings.outputs) check_picture_output(first_name(output));
   check_display(settings.image.display);
-  if (!settings.stats.empty() && settings.stats != "-") check_writable(settings.stats);
-  if (const std::string& cache = settings.render.cache.cache_out; !cache.empty()) check_writable(cache);
+  if (!settings.stats.empty() && settings.stats != "-") check_writable(first_name(settings.stats));
+  if (const std::string& cache = settings.render.cache.cache_out; !cache.empty())
+    check_writable(first_name(cache));
   if (!settings.render.checkpoint.file.empty()) check_writable(settings.render.checkpoint.file);
   if (!settings.frames.film.empty()) check_writable(settings.frames.film);
 }

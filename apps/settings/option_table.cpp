@@ -18,7 +18,6 @@ using namespace renderer;
 constexpr RealRange kStops{-100.0, 100.0};
 /// Before the first key and after the last one nothing moves.
 constexpr RealRange kSeconds{-1e9, 1e9};
-constexpr RealRange kFps{1e-3, 1e6};
 constexpr IntegerRange kTurns{0, 1 << 20};
 constexpr IntegerRange kGroups{1, 1 << 20};
 constexpr IntegerRange kScenes{-1, 1 << 30};
@@ -34,9 +33,12 @@ constexpr Choice<ProgressMode> kProgressModes[] = {{"auto", ProgressMode::automa
                                                    {"none", ProgressMode::none}};
 
 /// Options of the call, which do not change its results.
-void add_call_options(OptionGroup& group, std::string& stats, std::string& live, ProgressMode& progress,
-                      bool& reproducible, bool& quiet, bool& verbose) {
+void add_call_options(OptionGroup& group, RenderSettings& settings) {
+  auto& [scene, outputs, render, load, frames, image, exposure, eye, target, up, view_file, config, stats,
+         live, skip_existing, progress, reproducible, quiet, verbose, preset, given] = settings;
   const auto add = [&](Option option) { group.add(in_recipe(std::move(option), InRecipe::never)); };
+  add(not_in_sweep(toggle("skip-existing", skip_existing,
+                          "Leave out frames, and cameras, whose pictures are there already")));
   add(not_in_sweep(toggle(
       "reproducible", reproducible,
       "Leave times, threads and the command line out of the EXR header: equal renders give equal files")));
@@ -131,10 +133,16 @@ void add_frame_options(OptionGroup& group, FrameSettings& frames) {
   add(common(
       {.name = "frames",
        .unit = "A:B[:STEP]",
-       .help = "Frames to render, each to its own file: -o frame-%04d.exr, #### or {frame}",
+       .help =
+           "Frames to render, each to its own file: -o frame-%04d.exr, #### or {frame}, also in a folder's "
+           "name; %% is a %. Lists are 1,3,5-9",
        .value = [&chosen = range]() -> OptionValue { return text_of(*chosen); },
        .read = [&chosen = range](const std::string& text) { chosen = parse_frames("--frames", text); }}));
-  add(number("fps", fps, kFps, "N", "Frames of a second: frame n shows the time n / N"));
+  add({.name = "fps",
+       .unit = "N",
+       .help = "Frames of a second: frame n shows the time n / N; also 30000/1001",
+       .value = [&chosen = fps]() -> OptionValue { return chosen; },
+       .read = [&chosen = fps](const std::string& text) { chosen = parse_fps("--fps", text); }});
   add(number("turntable", turntable, kTurns, "N",
              "The camera goes around what it looks at, once in N frames; alone it renders these"));
   group.add(not_in_sweep(
@@ -229,12 +237,12 @@ Option positional(const char* name, std::string& member, const char* help) {
 std::vector<Option> option_table(RenderSettings& settings) {
   // --config belongs to all subcommands.
   auto& [scene, outputs, render, load, frames, image, exposure, eye, target, up, view_file, config, stats,
-         live, progress, reproducible, quiet, verbose, preset, given] = settings;
+         live, skip_existing, progress, reproducible, quiet, verbose, preset, given] = settings;
   std::vector<Option> table;
   table.push_back(positional("SCENE", scene, "Scene, .gltf or .glb"));
   OptionGroup output{table, "Output"};
   add_picture_files(output, outputs, image, exposure);
-  add_call_options(output, stats, live, progress, reproducible, quiet, verbose);
+  add_call_options(output, settings);
   OptionGroup view{table, "Scene and view"};
   for (Option& option : picture_options(render)) {
     const std::string name = option.name;

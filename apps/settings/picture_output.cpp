@@ -6,7 +6,9 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <filesystem>
 #include <iterator>
+#include <system_error>
 
 #include "apps/terminal/errors.h"
 #include "apps/terminal/terminal.h"
@@ -36,6 +38,14 @@ std::vector<std::string> files_of(std::span<const std::string> outputs) {
   std::copy_if(outputs.begin(), outputs.end(), std::back_inserter(files),
                [](const std::string& output) { return !stdout_format(output); });
   return files;
+}
+
+bool are_there(std::span<const std::string> outputs) {
+  return std::all_of(outputs.begin(), outputs.end(), [](const std::string& output) {
+    std::error_code error;
+    return !stdout_format(output) && std::filesystem::is_regular_file(output, error) &&
+           std::filesystem::file_size(output, error) > 0 && !error;
+  });
 }
 
 void check_stdout(std::span<const std::string> outputs, const std::string& stats) {

@@ -21,6 +21,10 @@ renderer::ImageFormat output_format(const std::string& output);
 /// The outputs that are files.
 std::vector<std::string> files_of(std::span<const std::string> outputs);
 
+/// Whether all outputs are files that are there: as each is written whole or not at all, so is the picture.
+/// An empty file is no picture.
+bool are_there(std::span<const std::string> outputs);
+
 /// Throws UsageError where two results would go to standard output. `stats` may be empty.
 void check_stdout(std::span<const std::string> outputs, const std::string& stats = "");
 

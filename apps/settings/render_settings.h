@@ -29,10 +29,11 @@ struct RenderSettings {
       eye;  ///< complete_settings() makes render.camera.look_at of these three
   std::optional<std::array<float, 3>> target;
   std::optional<std::array<float, 3>> up;
-  std::string view_file;  ///< file of --view-file, empty for none
-  std::string config;     ///< file of --config, empty for none
-  std::string stats;      ///< file, "-" for stdout, empty for none
-  std::string live;       ///< HOST:PORT of a viewer that shows the picture, empty for none
+  std::string view_file;       ///< file of --view-file, empty for none
+  std::string config;          ///< file of --config, empty for none
+  std::string stats;           ///< file, "-" for stdout, empty for none
+  std::string live;            ///< HOST:PORT of a viewer that shows the picture, empty for none
+  bool skip_existing = false;  ///< pictures are left out whose files are there
   ProgressMode progress = ProgressMode::automatic;
   bool reproducible = false;
   bool quiet = false;

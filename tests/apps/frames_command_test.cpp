@@ -152,6 +152,46 @@ TEST_F(Frames, AreShownWithTheExposureOfTheFirst) {
   EXPECT_EQ(exposure("a-2.json"), exposure("a-0.json"));
 }
 
+TEST_F(Frames, ThatAreThereStayAsTheyAre) {
+  const auto run = [&](std::vector<std::string> more) {
+    const std::vector<std::string> words = {"--integrator", "path",     "--temporal",
+                                            "off",          "-o",       path("shot_%02d/f.exr"),
+                                            "-o",           path("f-%d.png")};
+    more.insert(more.end(), words.begin(), words.end());
+    return render(more);
+  };
+  const Output all = run({"--frames", "1,3-4"});
+  ASSERT_EQ(all.exit_code, 0) << all.err;
+  const std::string third = read_file(path("shot_03/f.exr"));
+  folder.write("shot_01/f.exr", "kept");
+  folder.write("f-4.png", "");
+  std::filesystem::remove(path("shot_03/f.exr"));
+  const Output rest = run({"--frames", "1,3-4", "--skip-existing"});
+  ASSERT_EQ(rest.exit_code, 0) << rest.err;
+  EXPECT_NE(rest.err.find("skipped   1 of 3"), std::string::npos) << rest.err;
+  EXPECT_EQ(read_file(path("shot_01/f.exr")), "kept");
+  EXPECT_TRUE(read_file(path("shot_03/f.exr")) == third);
+  EXPECT_GT(std::filesystem::file_size(path("f-4.png")), 0u) << "an empty file is no picture";
+  const Output none = run({"--frames", "1,3-4", "--skip-existing"});
+  ASSERT_EQ(none.exit_code, 0) << none.err;
+  EXPECT_NE(none.err.find("skipped   3 of 3"), std::string::npos) << none.err;
+  EXPECT_EQ(read_file(path("shot_01/f.exr")), "kept");
+}
+
+TEST_F(Frames, OfAllCamerasAreThoseOfEach) {
+  const auto run = [&](const std::string& camera, const std::string& output) {
+    return run_gatelight({"render", GATELIGHT_SOURCE_DIR "/data/teapot-stadium.glb", "--size", "32x18", "--spp",
+                          "1", "--reproducible", "--turntable", "2", "--camera", camera, "-o", path(output)});
+  };
+  const Output all = run("all", "{camera}-%d.exr");
+  ASSERT_EQ(all.exit_code, 0) << all.err;
+  ASSERT_EQ(run("hall", "alone-%d.exr").exit_code, 0);
+  for (const char* frame : {"0", "1"}) {
+    EXPECT_EQ(colors_of(std::string("hall-") + frame + ".exr"), colors_of(std::string("alone-") + frame + ".exr"));
+    EXPECT_TRUE(std::filesystem::exists(path(std::string("teapot-") + frame + ".exr")));
+  }
+}
+
 TEST_F(Frames, TellTheirProgress) {
   const Output told = render({"--frames", "0:1", "-o", path("f-%d.exr"), "--progress", "json"});
   EXPECT_EQ(told.exit_code, 0);
