@@ -121,6 +121,12 @@ class Renderer {
   void begin_frames(double seconds, const std::filesystem::path& file = {});
   /// Takes the light of the last frame of `file`, whose scene and view these must be, for the next one.
   void restore_frame(const std::filesystem::path& file);
+  /// Keeps the places of the present scene as those of a frame beside the one that is rendered next, for
+  /// Aov::motion and Aov::motion_next. Nothing is built: the renderer needs scene_moved() after it. Where
+  /// these frames are not known there is no motion.
+  void note_frame(int frame, const CameraOptions& camera);
+  /// Whether they are known; those of the last frames that were rendered with these layers are.
+  bool knows_frame(int frame) const;
   /// The present frame, whose number keys its random numbers. It depends on scene, options and the cache
   /// before it, which it trains further, as much as the light has changed. No checkpoint is read or written.
   Picture render_frame(int frame, const Callbacks& callbacks = {});

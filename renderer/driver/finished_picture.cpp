@@ -267,7 +267,7 @@ class Finisher {
   /// Adds the parts that do not depend on how the colours were found.
   template <class Alpha>
   void finish(Picture& picture, const Alpha& alpha) const {
-    if (f_.motion) picture.layers.push_back(*f_.motion);
+    picture.layers.insert(picture.layers.end(), f_.motion.begin(), f_.motion.end());
     if (has(options_.aovs, Aov::denoising)) add_denoising_layers(picture, samples(), f_.scale.factor());
     if (options_.background.is_separate()) put_before(picture, alpha(), options_.background);
   }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <utility>
 
 #include "renderer/cache/cache_file.h"
 #include "renderer/driver/cache_sessions.h"
@@ -18,6 +20,29 @@ constexpr double kChanged = 0.1;
 /// Steps of a cache for many frames, in those of a still with as many samples: presets of frames have three
 /// quarters of the samples of a still, and as many steps.
 constexpr double kStepsOfFrames = 4.0 / 3.0;
+
+/// The way in the picture from an earlier view, or to a later one. `other`: null for none, which is no
+/// motion.
+Layer motion_layer(const PreparedPicture& picture, Aov aov, const EarlierView* other) {
+  const RenderOptions& options = picture.options_of_picture;
+  const PixelRect rect = picture.region_of_picture();
+  Layer layer{.name = enum_name(aov), .channels = {"X", "Y"}, .full_precision = true};
+  layer.values.assign(2 * rect.index(rect.x0, rect.y1), 0.0f);
+  if (!other) return layer;
+  const float forward = aov == Aov::motion_next ? -1.0f : 1.0f;
+  const Camera camera(picture.view, options.width, options.height);
+  const VisiblePoints points = trace_visible_points(*picture.world, camera, rect, other);
+  for (int y = rect.y0; y < rect.y1; ++y) {
+    for (int x = rect.x0; x < rect.x1; ++x) {
+      const std::size_t i = rect.index(x, y);
+      if (!points.earlier[i]) continue;
+      const Vec2& there = points.earlier[i]->pixel;
+      layer.values[2 * i] = forward * (static_cast<float>(x) + 0.5f - there.x());
+      layer.values[2 * i + 1] = forward * (there.y() - (static_cast<float>(y) + 0.5f));
+    }
+  }
+  return layer;
+}
 
 }  // namespace
 
@@ -50,9 +75,6 @@ void FrameMemory::restore(const PreparedPicture& picture, const std::filesystem:
   FrameFile file(path);
   FrameLight light = file.read_light(fingerprint, picture.region.width(), picture.region.height());
   last_frame = file.status().frame;
-  const RenderOptions& options = picture.options_of_picture;
-  view_of_picture_.emplace(
-      EarlierView{Moment(picture.scene), Camera(picture.view, options.width, options.height)});
   if (light.empty()) return;
   VisiblePoints points = picture.arena.execute(
       [&] { return trace_visible_points(*picture.world, picture.camera, picture.region, nullptr); });
@@ -74,26 +96,23 @@ Reuse FrameMemory::reuse(const PreparedPicture& picture, const Film& film) {
   return reuse_samples(film, std::move(points), std::move(probes), history.get());
 }
 
-Layer FrameMemory::motion(const PreparedPicture& picture) {
+void FrameMemory::note_view(const PreparedPicture& picture, const View& view, int of_frame) {
   const RenderOptions& options = picture.options_of_picture;
-  const PixelRect rect = picture.region_of_picture();
-  const Camera camera(picture.view, options.width, options.height);
-  Layer layer{.name = enum_name(Aov::motion), .channels = {"X", "Y"}, .full_precision = true};
-  layer.values.assign(2 * rect.index(rect.x0, rect.y1), 0.0f);
-  if (view_of_picture_) {
-    const VisiblePoints points = trace_visible_points(*picture.world, camera, rect, &*view_of_picture_);
-    for (int y = rect.y0; y < rect.y1; ++y) {
-      for (int x = rect.x0; x < rect.x1; ++x) {
-        const std::size_t i = rect.index(x, y);
-        if (!points.earlier[i]) continue;
-        const Vec2& before = points.earlier[i]->pixel;
-        layer.values[2 * i] = static_cast<float>(x) + 0.5f - before.x();
-        layer.values[2 * i + 1] = before.y() - (static_cast<float>(y) + 0.5f);
-      }
-    }
+  views_.insert_or_assign(of_frame,
+                          EarlierView{Moment(picture.scene), Camera(view, options.width, options.height)});
+}
+
+std::vector<Layer> FrameMemory::motion(const PreparedPicture& picture) {
+  std::vector<Layer> layers;
+  for (const auto& [aov, other] : {std::pair(Aov::motion, frame - 1), {Aov::motion_next, frame + 1}}) {
+    if (!has(picture.options.aovs, aov)) continue;
+    const auto view = views_.find(other);
+    layers.push_back(motion_layer(picture, aov, view == views_.end() ? nullptr : &view->second));
   }
-  view_of_picture_.emplace(EarlierView{Moment(picture.scene), camera});
-  return layer;
+  if (layers.empty()) return layers;
+  note_view(picture, picture.view, frame);
+  std::erase_if(views_, [this](const auto& of) { return std::abs(of.first - frame) > 1; });
+  return layers;
 }
 
 void FrameMemory::keep(const PreparedPicture& picture, const std::vector<float>& denoised,

@@ -2,8 +2,10 @@
 // What the frames of an animation hand on to each other.
 
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "renderer/cache/cache_session.h"
 #include "renderer/cache/scouting.h"
@@ -18,6 +20,7 @@ namespace gatelight::renderer {
 struct FrameMemory {
   Scouting scouting;
   bool scouted = false;
+  int frame = 0;  ///< that is made
   std::optional<int> last_frame;
   int fresh_steps = 0;  ///< training steps of a cache that knows nothing
   double layout_seconds = 0.0;
@@ -28,8 +31,16 @@ struct FrameMemory {
 
   /// The film's samples with the light of the frame before. For the caller's arena.
   Reuse reuse(const PreparedPicture& picture, const Film& film);
-  /// The layer of Aov::motion, and the view for that of the next frame. For the caller's arena.
-  Layer motion(const PreparedPicture& picture);
+  /// The layers of motion. Keeps the frame's view for its neighbours. For the caller's arena.
+  std::vector<Layer> motion(const PreparedPicture& picture);
+  /// Keeps a view of the present scene.
+  void note_view(const PreparedPicture& picture, const View& view, int frame);
+  /// Forgets pictures of another size.
+  void forget() {
+    history.reset();
+    views_.clear();
+  }
+  bool knows_view(int of_frame) const { return views_.contains(of_frame); }
   /// Keeps the frame for the next one.
   void keep(const PreparedPicture& picture, const std::vector<float>& denoised, const Reuse& reuse);
   /// Renderer::begin_frames().
@@ -42,7 +53,7 @@ struct FrameMemory {
              std::optional<float> exposure) const;
 
  private:
-  std::optional<EarlierView> view_of_picture_;  ///< of the last frame, in the picture's own pixels
+  std::map<int, EarlierView> views_;  ///< by frame, in the picture's own pixels
 };
 
 /// Training steps of a new cache that frames share.

@@ -104,8 +104,7 @@ FinishedPicture finish(const RenderContext& context, Film& film, bool stopped, R
         memory->keep(picture, denoised.color, *reuse);
       };
     }
-    if (memory && has(picture.options.aovs, Aov::motion))
-      how.motion = picture.arena.execute([&] { return memory->motion(picture); });
+    if (memory) how.motion = picture.arena.execute([&] { return memory->motion(picture); });
     finished = finished_picture(film, how, picture.arena);
     context.callbacks.check_abandoned();
     finished.picture.view = picture.camera.matrices(picture.scene.origin);

@@ -38,6 +38,8 @@ struct PreparedPicture {
   /// The picture is a frame of an animation, with random numbers of its own.
   void begin_frame(int frame);
 
+  /// The view of the present scene.
+  View chosen_view(const CameraOptions& chosen) const;
   /// An empty film.
   Film make_film() const;
   /// Samples per pixel of the film for those of the picture.
@@ -73,7 +75,6 @@ struct PreparedPicture {
   /// Fills in the statistics of the world.
   void describe();
   WorldOptions world_options() const;
-  View chosen_view(const CameraOptions& chosen) const;
   /// Applies RenderOptions::choose_integrator, for the first view.
   void choose_integrator();
 

@@ -26,7 +26,7 @@ struct Renderer::Implementation {
     memory.fresh_steps = steps_of_frames(picture);
     if (picture.region == region) return;
     tiles.emplace(picture.region, all_ranks, picture.threads);
-    memory.history.reset();
+    memory.forget();
   }
 
   PreparedPicture picture;
@@ -86,9 +86,20 @@ Picture Renderer::render_frame(int frame, const Callbacks& callbacks) {
   const FlushDenormals flush;
   Implementation& self = *implementation_;
   self.picture.begin_frame(frame);
+  self.memory.frame = frame;
   Picture picture = render_picture({self.picture, *self.tiles, callbacks}, self.statistics, &self.memory);
   self.memory.last_frame = frame;
   return picture;
+}
+
+void Renderer::note_frame(int frame, const CameraOptions& camera) {
+  const FlushDenormals flush;
+  Implementation& self = *implementation_;
+  self.memory.note_view(self.picture, self.picture.chosen_view(camera), frame);
+}
+
+bool Renderer::knows_frame(int frame) const {
+  return implementation_->memory.knows_view(frame);
 }
 
 void Renderer::write_frame(const std::filesystem::path& path, std::optional<float> exposure) const {

@@ -14,8 +14,8 @@ namespace gatelight::renderer {
 namespace {
 
 bool from_first_hit(Aov aov) {
-  constexpr Aov kOthers[] = {Aov::sample_count, Aov::variance,  Aov::raw,   Aov::error,
-                             Aov::alpha,        Aov::denoising, Aov::motion};
+  constexpr Aov kOthers[] = {Aov::sample_count, Aov::variance,  Aov::raw,    Aov::error,
+                             Aov::alpha,        Aov::denoising, Aov::motion, Aov::motion_next};
   return !has(kOthers, aov);
 }
 

@@ -65,8 +65,8 @@ class Film {
   /// Adds the light of each group, times `scale`, for a sample that was added.
   void add_parts(const Pixel& p, std::span<const Color> parts, float scale);
 
-  /// The means so far, and the layers of the output variables but Aov::denoising and Aov::motion. A pixel
-  /// without samples is black. Runs in the caller's arena.
+  /// The means so far, and the layers of the output variables but Aov::denoising and those of motion. A
+  /// pixel without samples is black. Runs in the caller's arena.
   Picture resolve() const { return resolve(rect_.y0, rect_.y1); }
   /// The same for the rows first <= y < end.
   Picture resolve(int first, int end) const;

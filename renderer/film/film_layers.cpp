@@ -153,7 +153,8 @@ Picture Film::resolve(int first, int end) const {
                   .full_height = full_height_};
   picture.layers.push_back({.channels = {"R", "G", "B"}, .values = plane(Plane::mean, first, end)});
   for (const Aov aov : contents_.aovs) {
-    if (aov != Aov::denoising && aov != Aov::motion) picture.layers.push_back(layer(aov, range));
+    constexpr Aov kOfOthers[] = {Aov::denoising, Aov::motion, Aov::motion_next};
+    if (!has(kOfOthers, aov)) picture.layers.push_back(layer(aov, range));
   }
   const std::size_t groups = contents_.light_groups.size();
   for (std::size_t g = 0; g < groups; ++g) {

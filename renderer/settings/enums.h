@@ -57,10 +57,11 @@ enum class Aov : std::uint8_t {
   alpha,  ///< 1 less the visible share of the background
   sample_count,
   variance,
-  raw,        ///< the samples' mean
-  error,      ///< estimated standard error of the picture
-  denoising,  ///< the layers from which the picture can be denoised later (denoise/README.md)
-  motion,     ///< of the surface in the picture since the frame before: pixels, x to the right, y up
+  raw,          ///< the samples' mean
+  error,        ///< estimated standard error of the picture
+  denoising,    ///< the layers from which the picture can be denoised later (denoise/README.md)
+  motion,       ///< of the surface in the picture since the frame before: pixels, x to the right, y up
+  motion_next,  ///< the same until the next frame
   // Outputs of the cache, at the vertex of its first query; black without one.
   cache_radiance,  ///< the picture that it gives without any further path
   cache_answer,    ///< its answer, before reflectance
