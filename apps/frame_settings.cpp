@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 namespace gatelight::apps {
 
@@ -31,13 +32,34 @@ RenderSettings settings_of_frame(const RenderSettings& whole, int frame) {
   return settings;
 }
 
-std::vector<int> scouted_frames(const std::vector<int>& frames) {
-  constexpr std::size_t kScouted = 8;
-  const std::size_t moments = std::min(frames.size(), kScouted);
+int last_frame_of_film(const RenderSettings& settings, const scene::Scene& scene) {
+  if (settings.frames.turntable > 0) return settings.frames.turntable - 1;
+  const std::string& chosen = settings.load.animation;
+  double seconds = 0.0;
+  for (std::size_t i = 0; i < scene.animations.size(); ++i) {
+    const scene::Animation& animation = scene.animations[i];
+    if (chosen.empty() || chosen == animation.name || chosen == std::to_string(i))
+      seconds = std::max(seconds, animation.seconds);
+  }
+  constexpr double kMost = 1e7, kRounding = 1e-4;
+  return static_cast<int>(std::min(seconds * settings.frames.fps + kRounding, kMost));
+}
+
+std::vector<int> sampled_frames(const FrameList& list) {
+  constexpr std::size_t kSampled = 8;
+  const std::vector<int> frames = list.numbers();
+  const std::size_t moments = std::min(frames.size(), kSampled);
   const std::size_t steps = std::max<std::size_t>(moments, 2) - 1;
-  std::vector<int> scouted;
-  for (std::size_t k = 0; k < moments; ++k) scouted.push_back(frames[k * (frames.size() - 1) / steps]);
-  return scouted;
+  std::vector<int> sampled;
+  for (std::size_t k = 0; k < moments; ++k) sampled.push_back(frames[k * (frames.size() - 1) / steps]);
+  return sampled;
+}
+
+std::vector<int> frames_of_motion(const RenderSettings& settings, int frame) {
+  std::vector<int> frames;
+  if (renderer::has(settings.render.aovs, renderer::Aov::motion)) frames.push_back(frame - 1);
+  if (renderer::has(settings.render.aovs, renderer::Aov::motion_next)) frames.push_back(frame + 1);
+  return frames;
 }
 
 }  // namespace gatelight::apps

@@ -13,7 +13,14 @@ renderer::CameraOptions camera_of_frame(const RenderSettings& settings, int fram
 /// The settings of a frame, from those of all frames.
 RenderSettings settings_of_frame(const RenderSettings& whole, int frame);
 
-/// The frames that are scouted for a cache, evenly spread.
-std::vector<int> scouted_frames(const std::vector<int>& frames);
+/// The last frame of the film, which begins with frame 0: that of the turn of --turntable, else that of the
+/// end of the animations which are shown; 0 where there are none.
+int last_frame_of_film(const RenderSettings& settings, const scene::Scene& scene);
+
+/// Some of the frames, evenly spread: those that are scouted for a cache, or measured.
+std::vector<int> sampled_frames(const FrameList& frames);
+
+/// The frames beside this one whose places the layers of motion need.
+std::vector<int> frames_of_motion(const RenderSettings& settings, int frame);
 
 }  // namespace gatelight::apps

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "apps/film_exposure.h"
 #include "apps/frame_groups.h"
 #include "apps/frame_settings.h"
 #include "apps/preview_video.h"
@@ -13,13 +14,13 @@
 #include "apps/settings/camera_names.h"
 #include "apps/settings/frame_flags.h"
 #include "apps/settings/picture_output.h"
+#include "apps/settings/unused_flags.h"
 #include "apps/terminal/errors.h"
 #include "apps/terminal/log.h"
 #include "apps/terminal/signals.h"
 #include "apps/terminal/terminal.h"
 #include "base/errors.h"
 #include "renderer/distributed/collectives.h"
-#include "renderer/image/auto_exposure.h"
 #include "renderer/settings/resolved_options.h"
 
 namespace gatelight::apps {
@@ -55,14 +56,15 @@ int RenderRun::render_film(scene::SceneFile& file, scene::Scene& scene) {
   const std::vector<int> all = whole_.frames.range->numbers();
   const std::set<int> existing = existing_frames(all);
   if (existing.size() == all.size()) return end_film(all, 0, 0.0);
-  settings_ = settings_of_frame(whole_, all.front());
   progress_.phase("build");
   const Clock::time_point begin = Clock::now();
-  renderer::Renderer renderer(scene, settings_.render, group_.ranks);
+  const std::string before = state_before();
+  renderer::Renderer renderer = make_renderer(file, scene);
   if (whole_.render.choose_integrator) renderer::use_integrator(whole_.render, renderer.integrator());
   check_frame_groups(whole_.frames, renderer.integrator());
+  if (before.empty()) note_part(scene, all, existing);
   const std::size_t warnings_of_loading = report_.warnings.size();
-  const std::optional<int> done = begin_frames(file, scene, renderer, all);
+  const std::optional<int> done = begin_frames(file, scene, renderer, before);
   std::vector<int> frames(done ? std::find(all.begin(), all.end(), *done) + 1 : all.begin(), all.end());
   std::erase_if(frames, [&](int frame) { return existing.contains(frame); });
   frames = frames_of_group(frames, groups, number_of_group(groups, all_.ranks));
@@ -89,6 +91,58 @@ int RenderRun::render_film(scene::SceneFile& file, scene::Scene& scene) {
   return end_film(all, frames.size(), seconds_since(begin));
 }
 
+renderer::Renderer RenderRun::make_renderer(scene::SceneFile& file, scene::Scene& scene) {
+  // What is chosen for the scene is chosen by the film's first frame, whichever of its frames are rendered.
+  file.show(scene, whole_.frames.seconds(0));
+  shown_frame_.reset();
+  settings_ = settings_of_frame(whole_, 0);
+  const bool displayed = shows_on_a_screen(whole_.outputs) || !whole_.frames.film.empty();
+  if (whole_.exposure || !displayed) {
+    renderer::Renderer renderer(scene, settings_.render, group_.ranks);
+    shown_frame_ = 0;
+    return renderer;
+  }
+  renderer::Renderer renderer(scene, measuring_options(settings_.render), group_.ranks);
+  progress_.phase("exposure");
+  const int last = last_frame_of_film(whole_, scene);
+  const std::vector<int> frames = sampled_frames({{{0, last}}});
+  whole_.exposure =
+      film_exposure(renderer, frames, [&](int frame) { show_frame(file, scene, renderer, frame); },
+                    {.stop = [] { return stop_signal() != 0; }});
+  note("exposure",
+       fmt::format("{:.1f} EV by the light of the film, {} of its frames 0 to {}; --exposure {:.1f} "
+                   "keeps it",
+                   *whole_.exposure, frames.size(), last, *whole_.exposure));
+  show_frame(file, scene, renderer, 0);
+  settings_ = settings_of_frame(whole_, 0);
+  renderer.set_options(settings_.render);
+  return renderer;
+}
+
+void RenderRun::note_part(const scene::Scene& scene, const std::vector<int>& frames,
+                          const std::set<int>& existing) {
+  const renderer::RenderOptions& options = whole_.render;
+  const bool cached = renderer::uses_cache(options.integrator);
+  const bool carried = options.denoise.denoiser != renderer::DenoiserKind::none && options.denoise.temporal;
+  const int last = last_frame_of_film(whole_, scene);
+  const bool whole = existing.empty() && frames.front() <= 0 && frames.back() >= last - 1 &&
+                     (frames.size() < 2 || common_step(frames) == 1);
+  if (whole || last == 0 || (!cached && !carried)) return;
+  note("part",
+       fmt::format("of the film, frames 0 to {}: {}{}{} make its frames differ a little from those of a "
+                   "run of all; --integrator path --temporal off does not",
+                   last, cached ? "a kept cache" : "", cached && carried ? " and " : "",
+                   carried ? "carried light" : ""));
+}
+
+std::string RenderRun::state_before() {
+  const std::string& checkpoint = whole_.render.checkpoint.file;
+  const bool resumed = whole_.render.checkpoint.resume && std::filesystem::exists(checkpoint);
+  const std::string before = resumed ? checkpoint : whole_.render.cache.cache_in;
+  if (!before.empty() && !whole_.exposure) whole_.exposure = renderer::read_frame_status(before).exposure;
+  return before;
+}
+
 std::set<int> RenderRun::existing_frames(const std::vector<int>& frames) {
   std::set<int> existing;
   if (!whole_.skip_existing) return existing;
@@ -109,40 +163,55 @@ void RenderRun::make_folders(int frame) const {
 
 void RenderRun::show_frame(scene::SceneFile& file, scene::Scene& scene, renderer::Renderer& renderer,
                            int frame) {
+  if (shown_frame_ == frame) return;
+  shown_frame_.reset();
   file.show(scene, whole_.frames.seconds(frame));
   renderer.scene_moved(camera_of_frame(whole_, frame));
+  shown_frame_ = frame;
+}
+
+void RenderRun::show_places(scene::SceneFile& file, scene::Scene& scene, renderer::Renderer& renderer,
+                            int frame) {
+  if (!group_.ranks.first()) return;  // it makes these layers
+  for (const int other : frames_of_motion(whole_, frame)) {
+    if (renderer.knows_frame(other)) continue;
+    shown_frame_.reset();
+    file.show(scene, whole_.frames.seconds(other));
+    renderer.note_frame(other, camera_of_frame(whole_, other));
+  }
 }
 
 std::optional<int> RenderRun::begin_frames(scene::SceneFile& file, scene::Scene& scene,
-                                           renderer::Renderer& renderer, const std::vector<int>& frames) {
-  const std::string& checkpoint = whole_.render.checkpoint.file;
-  const bool resumed = whole_.render.checkpoint.resume && std::filesystem::exists(checkpoint);
-  const std::string before = resumed ? checkpoint : whole_.render.cache.cache_in;
-  if (!before.empty()) return go_on(file, scene, renderer, frames, before, resumed);
-  if (renderer::uses_cache(renderer.integrator()) && frames.size() > 1) {
-    for (const int frame : scouted_frames(frames)) {
+                                           renderer::Renderer& renderer, const std::string& before) {
+  if (!before.empty()) return go_on(file, scene, renderer, before);
+  int first = 0;
+  if (renderer::uses_cache(renderer.integrator())) {
+    const FrameList& frames = *whole_.frames.range;
+    first = frames.first();
+    for (const int frame : frames.is_single() ? std::vector<int>{} : sampled_frames(frames)) {
       show_frame(file, scene, renderer, frame);
       renderer.scout();
     }
-    show_frame(file, scene, renderer, frames.front());
   }
-  renderer.begin_frames(whole_.frames.seconds(frames.front()));
+  show_frame(file, scene, renderer, first);
+  renderer.begin_frames(whole_.frames.seconds(first));
   return {};
 }
 
 std::optional<int> RenderRun::go_on(scene::SceneFile& file, scene::Scene& scene, renderer::Renderer& renderer,
-                                    const std::vector<int>& frames, const std::string& before, bool resumed) {
+                                    const std::string& before) {
   const renderer::FrameStatus status = renderer::read_frame_status(before);
   if (!status.of_animation && scene.motion.any())
     throw CacheFileError(fmt::format("{}: made of the file's nodes, expected a cache of --frames", before));
+  const std::vector<int> frames = whole_.frames.range->numbers();
   file.show(scene, status.layout_seconds);
   renderer.scene_moved(camera_of_frame(whole_, status.frame.value_or(frames.front())));
+  shown_frame_.reset();
   renderer.begin_frames(status.layout_seconds, before);
-  if (status.exposure && !whole_.exposure) whole_.exposure = status.exposure;
   if (!status.frame) return {};
   show_frame(file, scene, renderer, *status.frame);
   renderer.restore_frame(before);
-  if (!resumed) return {};
+  if (before != whole_.render.checkpoint.file) return {};
   if (std::find(frames.begin(), frames.end(), *status.frame) == frames.end())
     throw CacheFileError(
         fmt::format("{}: it ends with frame {}, expected one of --frames", before, *status.frame));
@@ -154,6 +223,7 @@ int RenderRun::make_frame(scene::SceneFile& file, scene::Scene& scene, renderer:
   start_ = Clock::now();
   make_folders(frame);
   settings_ = settings_of_frame(whole_, frame);
+  show_places(file, scene, renderer, frame);
   show_frame(file, scene, renderer, frame);
   for (const std::string& warning : scene.warnings) warn(warning);
   for (const std::string& warning : renderer.statistics().warnings) warn(warning);
@@ -161,9 +231,6 @@ int RenderRun::make_frame(scene::SceneFile& file, scene::Scene& scene, renderer:
   renderer::Picture picture = renderer.render_frame(frame, make_callbacks(renderer));
   // An unfinished frame would look like a finished one.
   if (const int number = signal(); number != 0) return number;
-  keep_exposure(&picture);
-  // The first frame is shown by its own light, as any picture is.
-  if (frame != whole_.frames.range->first()) settings_ = settings_of_frame(whole_, frame);
   end_picture(std::move(picture), renderer.statistics());
   if (!group_.ranks.first()) return 0;
   write_state(renderer, frame);
@@ -172,13 +239,6 @@ int RenderRun::make_frame(scene::SceneFile& file, scene::Scene& scene, renderer:
     print_status(frame_line(frame, settings_, report_));
   }
   return 0;
-}
-
-void RenderRun::keep_exposure(const renderer::Picture* picture) {
-  if (whole_.exposure) return;
-  const float suitable = picture && group_.ranks.first() ? renderer::auto_exposure(*picture) : 0.0f;
-  // Rank 0 has the first frame; each group waits for it once.
-  whole_.exposure = whole_.frames.groups > 1 ? renderer::agreed(all_.ranks, suitable) : suitable;
 }
 
 void RenderRun::write_state(const renderer::Renderer& renderer, int frame) {
@@ -230,7 +290,6 @@ int RenderRun::stop_frames(int signal, std::size_t done, std::size_t count) {
 
 int RenderRun::end_groups(int signal, std::size_t done, const std::vector<int>& frames, double seconds) {
   if (signal != 0) all_.stop_others(signal);
-  keep_exposure(nullptr);
   FrameResults mine;
   // The ranks of a group have the same results, and rank 0 has printed its warnings.
   if (group_.ranks.first()) {
@@ -270,7 +329,7 @@ void RenderRun::end_frames(std::size_t count, double seconds) {
   nlohmann::ordered_json json = {{"frames", count}, {"seconds", seconds}};
   if (film_frames_ > 0) json["film_frames"] = film_frames_;
   if (progress_.done(json) || settings_.quiet) return;
-  print_status(frames_summary(count, seconds, whole_, report_));
+  print_status(frames_summary(count, seconds, report_));
   if (film_frames_ > 0)
     print_status(fmt::format("film      {} frames; {}\n", film_frames_, whole_.frames.film));
 }

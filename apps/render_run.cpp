@@ -225,15 +225,19 @@ void RenderRun::print_results() {
   }
 }
 
-void RenderRun::note_skipped(std::size_t skipped, std::size_t count) {
-  if (!all_.ranks.first()) return;
+void RenderRun::note(const char* about, const std::string& text) {
+  if (!all_.ranks.first() || settings_.quiet) return;
+  progress_.clear();
   if (settings_.progress == ProgressMode::json) {
-    print_json_line({{"event", "skipped"}, {"skipped", skipped}, {"pictures", count}});
-  } else if (!settings_.quiet) {
-    progress_.clear();
-    print_status(
-        fmt::format("skipped   {} of {}, which {} there\n", skipped, count, skipped == 1 ? "is" : "are"));
+    print_json_line({{"event", "note"}, {"about", about}, {"message", text}});
+  } else {
+    print_status(fmt::format("{:<9} {}\n", about, text));
   }
+}
+
+void RenderRun::note_skipped(std::size_t skipped, std::size_t count) {
+  note("skipped",
+       fmt::format("{} of {}, which {} there already", skipped, count, skipped == 1 ? "is" : "are"));
 }
 
 void RenderRun::note_failed_output(const std::exception_ptr& error, bool again) {

@@ -42,20 +42,26 @@ class RenderRun {
   /// With --skip-existing: the frames whose files are there.
   std::set<int> existing_frames(const std::vector<int>& frames);
   void make_folders(int frame) const;
+  /// The file from which the frames go on, --checkpoint or --cache-in, empty for none. Takes its exposure.
+  std::string state_before();
+  /// The renderer for all frames. Measures their exposure where none was given.
+  renderer::Renderer make_renderer(scene::SceneFile& file, scene::Scene& scene);
+  /// Says that frames of a part of the film differ from those of a run of all, where they do.
+  void note_part(const scene::Scene& scene, const std::vector<int>& frames, const std::set<int>& existing);
   void show_frame(scene::SceneFile& file, scene::Scene& scene, renderer::Renderer& renderer, int frame);
-  /// Makes or reads the cache. Returns the last frame that is done, where the run is resumed.
+  /// Shows the renderer where all was and will be, for the layers of motion.
+  void show_places(scene::SceneFile& file, scene::Scene& scene, renderer::Renderer& renderer, int frame);
+  /// Makes the cache, or reads it from `before`. Returns the last frame that is done, where the run is
+  /// resumed.
   std::optional<int> begin_frames(scene::SceneFile& file, scene::Scene& scene, renderer::Renderer& renderer,
-                                  const std::vector<int>& frames);
+                                  const std::string& before);
   /// Takes cache and light of `before`.
   std::optional<int> go_on(scene::SceneFile& file, scene::Scene& scene, renderer::Renderer& renderer,
-                           const std::vector<int>& frames, const std::string& before, bool resumed);
+                           const std::string& before);
   /// Writes --checkpoint and --cache-out.
   void write_state(const renderer::Renderer& renderer, int frame);
   /// The number of a signal that ended it, or 0.
   int make_frame(scene::SceneFile& file, scene::Scene& scene, renderer::Renderer& renderer, int frame);
-  /// The exposure of all frames, where none was given: that of the first frame, which is null at the end of a
-  /// group that has rendered none.
-  void keep_exposure(const renderer::Picture* picture);
   int stop_frames(int signal, std::size_t done, std::size_t count);
   /// After the frames of each group: reports those of all, makes the film. Returns the exit code.
   int end_groups(int signal, std::size_t done, const std::vector<int>& frames, double seconds);
@@ -80,6 +86,8 @@ class RenderRun {
   void write_snapshot(const renderer::Picture& picture, const renderer::RenderStatistics& statistics);
   void write_results(renderer::Picture picture);
   void print_results();
+  /// Prints a line; with --progress json as an event.
+  void note(const char* about, const std::string& text);
   /// How many pictures --skip-existing has left out.
   void note_skipped(std::size_t skipped, std::size_t count);
   void note_failed_output(const std::exception_ptr& error, bool again);
@@ -106,8 +114,9 @@ class RenderRun {
   std::exception_ptr failed_output_;  ///< the last failure of a checkpoint or cache file
   std::exception_ptr failed_frame_;   ///< the first one, or that of the film
   std::set<int> failed_frames_;
-  int last_frame_ = 0;           ///< to be rendered
-  std::size_t film_frames_ = 0;  ///< frames in the film; 0: there is none
+  std::optional<int> shown_frame_;  ///< by the renderer
+  int last_frame_ = 0;              ///< to be rendered
+  std::size_t film_frames_ = 0;     ///< frames in the film; 0: there is none
 };
 
 }  // namespace gatelight::apps

@@ -4,13 +4,12 @@
 
 #include <utility>
 
+#include "apps/film_exposure.h"
 #include "apps/frame_settings.h"
 #include "apps/python/running.h"
-#include "apps/python/waiting.h"
 #include "apps/terminal/text.h"
 #include "base/clock.h"
 #include "base/errors.h"
-#include "renderer/image/auto_exposure.h"
 #include "renderer/settings/resolved_options.h"
 
 namespace gatelight::python {
@@ -32,30 +31,41 @@ Frames::Frames(ScenePointer scene, const py::dict& keywords, py::object progress
   frames_ = whole_.frames.range->numbers();
 }
 
+void Frames::show_scene(int frame) {
+  if (!scene_->file || !scene_->loading.load.time) return;
+  const std::lock_guard lock(scene_->file_mutex);
+  scene_->file->show(shown_, whole_.frames.seconds(frame));
+}
+
 void Frames::show(int frame) {
-  if (scene_->file && scene_->loading.load.time) {
-    const std::lock_guard lock(scene_->file_mutex);
-    scene_->file->show(shown_, whole_.frames.seconds(frame));
-  }
+  show_scene(frame);
   renderer_->scene_moved(apps::camera_of_frame(whole_, frame));
 }
 
-void Frames::begin(Unfinished unfinished) {
+void Frames::begin(Unfinished unfinished, Waiting& waiting) {
   shown_ = finish_scene(*scene_, std::move(unfinished));
-  if (scene_->file && scene_->loading.load.time) {
-    const std::lock_guard lock(scene_->file_mutex);
-    scene_->file->show(shown_, whole_.frames.seconds(frames_.front()));
+  show_scene(0);
+  const renderer::RenderOptions options = apps::settings_of_frame(whole_, 0).render;
+  if (whole_.exposure) {
+    renderer_ = std::make_unique<renderer::Renderer>(shown_, options);
+  } else {
+    renderer_ = std::make_unique<renderer::Renderer>(shown_, apps::measuring_options(options));
+    const int last = apps::last_frame_of_film(whole_, shown_);
+    whole_.exposure =
+        apps::film_exposure(*renderer_, apps::sampled_frames({{{0, last}}}),
+                            [this](int frame) { show(frame); }, {.stop = waiting.callbacks().stop});
+    if (waiting.stopped()) whole_.exposure.reset();
+    show(0);
+    renderer_->set_options(options);
   }
-  const apps::RenderSettings first = apps::settings_of_frame(whole_, frames_.front());
-  renderer_ = std::make_unique<renderer::Renderer>(shown_, first.render);
   if (whole_.render.choose_integrator) renderer::use_integrator(whole_.render, renderer_->integrator());
   if (renderer::uses_cache(renderer_->integrator()) && frames_.size() > 1) {
-    for (const int frame : apps::scouted_frames(frames_)) {
+    for (const int frame : apps::sampled_frames(*whole_.frames.range)) {
       show(frame);
       renderer_->scout();
     }
-    show(frames_.front());
   }
+  show(frames_.front());
   renderer_->begin_frames(whole_.frames.seconds(frames_.front()));
 }
 
@@ -69,7 +79,13 @@ PicturePointer Frames::next() {
   Waiting waiting(progress_, stop_);
   waiting.run([&] {
     const Clock::time_point start = Clock::now();
-    if (first) begin(std::move(unfinished));
+    if (first) begin(std::move(unfinished), waiting);
+    if (first && waiting.stopped()) return renderer_.reset();
+    for (const int other : apps::frames_of_motion(whole_, frame)) {
+      if (renderer_->knows_frame(other)) continue;
+      show_scene(other);
+      renderer_->note_frame(other, apps::camera_of_frame(whole_, other));
+    }
     show(frame);
     renderer::Picture made = renderer_->render_frame(frame, waiting.callbacks());
     if (waiting.stopped()) return;  // an unfinished frame would look like a finished one
@@ -78,10 +94,9 @@ PicturePointer Frames::next() {
     report.load_seconds = scene_->load_seconds;
     report.total_seconds = seconds_since(start);
     for (const std::string& warning : shown_.warnings) report.warnings.push_back(apps::with_flags(warning));
-    const float suitable = renderer::auto_exposure(made);
+    for (const std::string& output : whole_.outputs) apps::make_folders_of_frame(output, frame);
     const apps::RenderSettings settings = apps::settings_of_frame(whole_, frame);
     picture = finish_picture(std::move(made), renderer_->statistics(), settings, report);
-    if (!whole_.exposure) whole_.exposure = suitable;  // frames keep the exposure of the first
   });
   if (!picture) throw py::stop_iteration();
   show_warnings(*picture);

@@ -8,6 +8,7 @@
 
 #include "apps/python/picture_data.h"
 #include "apps/python/scene_data.h"
+#include "apps/python/waiting.h"
 #include "apps/settings/render_settings.h"
 #include "renderer/render.h"
 
@@ -24,7 +25,9 @@ class Frames {
   std::size_t size() const { return frames_.size(); }
 
  private:
-  void begin(Unfinished unfinished);
+  void begin(Unfinished unfinished, Waiting& waiting);
+  /// Shows the scene, or the renderer too.
+  void show_scene(int frame);
   void show(int frame);
 
   ScenePointer scene_;

@@ -18,14 +18,10 @@ std::string frame_line(int frame, const RenderSettings& settings, const RunRepor
   return text + fmt::format("; {}\n", settings.outputs.front());
 }
 
-std::string frames_summary(std::size_t frames, double seconds, const RenderSettings& settings,
-                           const RunReport& report) {
+std::string frames_summary(std::size_t frames, double seconds, const RunReport& report) {
   std::string text =
       fmt::format("frames    {} in {:.1f} s, {:.2f} s each; load {:.2f}\n", frames, seconds,
                   frames > 0 ? seconds / static_cast<double>(frames) : 0.0, report.load_seconds);
-  if (settings.exposure && !settings.given.contains("--exposure") && *settings.exposure != 0.0f)
-    text += fmt::format("exposure  {:.1f} EV by the light of the first frame; --exposure {:.1f} keeps it\n",
-                        *settings.exposure, *settings.exposure);
   return text + fmt::format("memory    peak {}\n", format_bytes(peak_resident_bytes()));
 }
 

@@ -10,8 +10,7 @@ namespace gatelight::apps {
 /// One line for a finished frame.
 std::string frame_line(int frame, const RenderSettings& settings, const RunReport& report);
 
-/// The lines after the last frame. `settings`: of the whole run.
-std::string frames_summary(std::size_t frames, double seconds, const RenderSettings& settings,
-                           const RunReport& report);
+/// The lines after the last frame.
+std::string frames_summary(std::size_t frames, double seconds, const RunReport& report);
 
 }  // namespace gatelight::apps

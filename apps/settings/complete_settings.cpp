@@ -89,7 +89,7 @@ void complete_frames(RenderSettings& settings) {
     return;
   }
   if (settings.load.time) throw UsageError("--time and --frames exclude each other, expected one of them");
-  settings.load.time = frames.seconds(frames.range->first());
+  settings.load.time = frames.seconds(0);
 }
 
 /// Files of several frames need a place for their number; those of one picture have none.
@@ -192,7 +192,8 @@ void adapt_cache(RenderSettings& settings) {
 
 /// Why a layer would be black, and what it needs; empty where it would not.
 std::string why_black(Aov aov, const RenderOptions& o, bool frames) {
-  if (aov == Aov::motion && !frames) return "a still has no motion, expected --frames";
+  if ((aov == Aov::motion || aov == Aov::motion_next) && !frames)
+    return "a still has no motion, expected --frames";
   if (aov < Aov::cache_radiance) return "";
   if (!uses_cache(o.integrator)) return no_cache(o);
   if (aov == Aov::cache_error && o.integrator == Integrator::nao) {

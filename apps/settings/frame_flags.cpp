@@ -63,13 +63,11 @@ void check_frame_groups(const RenderSettings& settings) {
     refuse(fmt::format("{}, expected at most the number of frames, {}", frames.groups, count));
   if (!options.checkpoint.file.empty())
     refuse(
-        "a checkpoint is of one frame after the other, expected no --checkpoint; --frames can leave out "
+        "a checkpoint is of one frame after the other, expected no --checkpoint; --skip-existing leaves out "
         "those that are done");
   if (!options.choose_integrator) check_frame_groups(frames, options.integrator);
   if (options.denoise.denoiser != renderer::DenoiserKind::none && options.denoise.temporal)
     refuse("denoised frames take over light of the one before, expected --temporal off or --denoiser none");
-  if (std::find(options.aovs.begin(), options.aovs.end(), renderer::Aov::motion) != options.aovs.end())
-    refuse("the layer 'motion' is the motion since the frame before, expected other --aov");
 }
 
 void check_frame_groups(const FrameSettings& frames, renderer::Integrator integrator) {

@@ -9,6 +9,10 @@
 namespace gatelight::renderer {
 
 float auto_exposure(const Picture& picture) {
+  return exposure_of_light(picture).value_or(0.0f);
+}
+
+std::optional<float> exposure_of_light(const Picture& picture) {
   constexpr double kGrey = 0.18;
   /// The luminance that a share of the pixels does not exceed, and its upper bound after exposure: sunlit
   /// floors just below white without a curve, windows within the range of AgX, whose white is at 16.
@@ -28,7 +32,7 @@ float auto_exposure(const Picture& picture) {
     lit.push_back(y);
     logs += std::log(static_cast<double>(y));
   }
-  if (lit.empty()) return 0.0f;
+  if (lit.empty()) return std::nullopt;
   const double average = std::exp(logs / static_cast<double>(lit.size()));
   double stops = std::log2(kGrey / average);
   for (const auto& [share, greatest] : kBounds) {

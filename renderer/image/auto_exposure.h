@@ -1,6 +1,8 @@
 #pragma once
 // The exposure that suits a picture.
 
+#include <optional>
+
 #include "renderer/image/picture.h"
 
 namespace gatelight::renderer {
@@ -10,5 +12,8 @@ namespace gatelight::renderer {
 /// exceed to at most 12, so that sunlit floors, sky and windows keep their shades. Black pixels do not count.
 /// 0 for a picture without light.
 float auto_exposure(const Picture& picture);
+
+/// The same; nothing for a picture without light.
+std::optional<float> exposure_of_light(const Picture& picture);
 
 }  // namespace gatelight::renderer

@@ -128,7 +128,7 @@ TEST_F(Frames, AFailureOfOneDoesNotLoseTheOthers) {
   EXPECT_TRUE(std::filesystem::exists(path("f-2.exr")));
 }
 
-TEST_F(Frames, AreShownWithTheExposureOfTheFirst) {
+TEST_F(Frames, AreShownWithOneExposure) {
   const std::vector<std::string> words = {
       "render", GATELIGHT_SOURCE_DIR "/data/moving-room.glb", "--size", "40x24", "--spp", "2", "--fps", "6"};
   const auto run = [&](std::vector<std::string> more) {
@@ -154,9 +154,8 @@ TEST_F(Frames, AreShownWithTheExposureOfTheFirst) {
 
 TEST_F(Frames, ThatAreThereStayAsTheyAre) {
   const auto run = [&](std::vector<std::string> more) {
-    const std::vector<std::string> words = {"--integrator", "path",     "--temporal",
-                                            "off",          "-o",       path("shot_%02d/f.exr"),
-                                            "-o",           path("f-%d.png")};
+    const std::vector<std::string> words = {"--integrator",          "path", "--temporal",    "off", "-o",
+                                            path("shot_%02d/f.exr"), "-o",   path("f-%d.png")};
     more.insert(more.end(), words.begin(), words.end());
     return render(more);
   };
@@ -180,14 +179,16 @@ TEST_F(Frames, ThatAreThereStayAsTheyAre) {
 
 TEST_F(Frames, OfAllCamerasAreThoseOfEach) {
   const auto run = [&](const std::string& camera, const std::string& output) {
-    return run_gatelight({"render", GATELIGHT_SOURCE_DIR "/data/teapot-stadium.glb", "--size", "32x18", "--spp",
-                          "1", "--reproducible", "--turntable", "2", "--camera", camera, "-o", path(output)});
+    return run_gatelight({"render", GATELIGHT_SOURCE_DIR "/data/teapot-stadium.glb", "--size", "32x18",
+                          "--spp", "1", "--reproducible", "--turntable", "2", "--camera", camera, "-o",
+                          path(output)});
   };
   const Output all = run("all", "{camera}-%d.exr");
   ASSERT_EQ(all.exit_code, 0) << all.err;
   ASSERT_EQ(run("hall", "alone-%d.exr").exit_code, 0);
   for (const char* frame : {"0", "1"}) {
-    EXPECT_EQ(colors_of(std::string("hall-") + frame + ".exr"), colors_of(std::string("alone-") + frame + ".exr"));
+    EXPECT_EQ(colors_of(std::string("hall-") + frame + ".exr"),
+              colors_of(std::string("alone-") + frame + ".exr"));
     EXPECT_TRUE(std::filesystem::exists(path(std::string("teapot-") + frame + ".exr")));
   }
 }

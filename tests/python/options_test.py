@@ -92,6 +92,18 @@ class Options(unittest.TestCase):
         pictures = list(gatelight.frames(DATA / "turntable.glb", size=(32, 18), preset=None, spp=1, frames=range(2)))
         self.assertEqual(len(pictures), 2)
 
+    def test_a_frame_is_the_same_in_any_range(self):
+        def last(frames):
+            picture = list(gatelight.frames(DATA / "moving-room.glb", size=(32, 18), preset=None, spp=1, exposure="auto",
+                                            aov="motion,motion-next", frames=frames))[-1]
+            return picture.statistics["exposure"], *(numpy.asarray(picture[name]) for name in picture.layers)
+
+        whole = last(range(3, 7))
+        self.assertGreater(numpy.abs(whole[2]).max(), 0.1)
+        for frames in (6, [1, 6], "2,5-6"):
+            for of_part, of_whole in zip(last(frames), whole, strict=True):
+                self.assertTrue(numpy.array_equal(of_part, of_whole), str(frames))
+
     def test_scene_of_arrays_equals_the_glb(self):
         from glb import Glb
         square = types.SimpleNamespace(

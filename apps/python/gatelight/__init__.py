@@ -85,8 +85,8 @@ render.__doc__ = _manual(options())
 def frames(scene, size=(960, 540), preset="standard", spp=None, *, progress=None, stop=None, **options):
     """Render the frames of an animation, one after the other. Returns an iterator over Pictures.
 
-    The options are those of render, and frames ("0:47", or range(48)), fps, turntable, shutter. The cache is kept from
-    frame to frame. A Scene was loaded with a time (time=0), and with fps and shutter for motion blur.
+    The options are those of render, and frames ("0:47", range(48) or [1, 3, 5]), fps, turntable, shutter. The cache is kept
+    from frame to frame. A Scene was loaded with a time (time=0), and with fps and shutter for motion blur.
     """
     if not isinstance(scene, Scene) and options.get("time") is None:
         blur = {name: options[name] for name in ("fps", "shutter", "threads") if options.get(name) is not None}

@@ -27,6 +27,7 @@ class Options(TypedDict, total=False):
     ocio: Value
     ocio_display: Value
     ocio_view: Value
+    skip_existing: Value
     reproducible: Value
     stats: Value
     live: Value

@@ -1,0 +1,21 @@
+#pragma once
+// The exposure of a film: one for all its frames, whichever of them are rendered.
+
+#include <functional>
+#include <vector>
+
+#include "renderer/render.h"
+
+namespace gatelight::apps {
+
+/// The options of the small pictures by which a film is measured. Of a picture's options they have those of
+/// its light and view; neither its size nor its seed, but its aspect ratio.
+renderer::RenderOptions measuring_options(renderer::RenderOptions options);
+
+/// In stops, for rank 0: the mean of those that suit the frames (auto_exposure()), each at most two stops
+/// from their median. Black frames do not count; 0 where all are black. `renderer` has measuring_options();
+/// `show` shows it a frame.
+float film_exposure(renderer::Renderer& renderer, const std::vector<int>& frames,
+                    const std::function<void(int frame)>& show, const renderer::Callbacks& callbacks);
+
+}  // namespace gatelight::apps
