@@ -104,6 +104,12 @@ class Renderer {
   /// Throws BadOption as the constructor does, with the view unchanged.
   void set_camera(const CameraOptions& camera);
 
+  /// Whether a soft sky lights the present view; nothing where no view or time of the scene can change that.
+  std::optional<bool> soft_sky() const;
+  /// The pictures after the next call that changes view, time or options all have the soft sky, or all have
+  /// none; nothing: each view chooses for itself, by what it shows, as a new renderer does.
+  void keep_soft_sky(std::optional<bool> sky);
+
   /// The pictures from now on have other options, with as many threads as before. What does not depend on the
   /// difference is not built again; frames go on with their cache, whose options must be the same. Throws as
   /// the constructor does; the renderer is then to be given other options before it is used.

@@ -11,12 +11,14 @@
 #include "base/platform/flush_denormals.h"
 #include "base/platform/threads.h"
 #include "renderer/cache/cache_model.h"
+#include "renderer/distributed/collectives.h"
 #include "renderer/driver/background.h"
 #include "renderer/driver/chosen_integrator.h"
 #include "renderer/film/camera_choice.h"
 #include "renderer/film/memory_estimate.h"
 #include "renderer/light/soft_sky.h"
 #include "renderer/settings/resolved_options.h"
+#include "renderer/transport/dark_share.h"
 #include "renderer/transport/view_check.h"
 
 namespace gatelight::renderer {
@@ -70,25 +72,23 @@ bool shows_light(Integrator integrator) {
   return integrator == Integrator::path || integrator == Integrator::nrc;
 }
 
-/// The options with an automatic environment resolved for this scene.
-RenderOptions with_sky(const scene::Scene& scene, RenderOptions options) {
-  options.environment.automatic = options.environment.automatic && !options.environment.sky &&
-                                  shows_light(options.integrator) &&
-                                  (scene.image_light || needs_light(scene));
-  return options;
+/// Whether the scene has no lights but what glows, and the options leave the rest to the renderer.
+bool may_need_sky(const scene::Scene& scene, const RenderOptions& options) {
+  return options.environment.automatic && !options.environment.sky && shows_light(options.integrator) &&
+         scene.lights.empty() && !scene.image_light && reflects(scene);
 }
 
-/// The warning for a scene without light; else empty. `options` are those of with_sky().
-std::string sky_warning(const scene::Scene& scene, const RenderOptions& options) {
-  if (options.environment.automatic && !scene.image_light) {
+/// The warning for a scene without light; else empty. `options` have the environment that was chosen.
+std::string sky_warning(const scene::Scene& scene, const RenderOptions& options, bool asks_for_sky) {
+  if (asks_for_sky && options.environment.automatic) {
     return fmt::format(
-        "{} has no light{}: a soft sky lights it; `environment` none, r,g,b or FILE replaces it", scene.path,
-        glows(scene) ? " but surfaces that glow and light nothing" : "");
+        "{} has no light that shows its surfaces: a soft sky lights it; `environment` none, "
+        "r,g,b or FILE replaces it",
+        scene.path);
   }
-  if (shows_light(options.integrator) && options.environment.none() && needs_light(scene)) {
-    return fmt::format("{} has no light, and the environment is 'none': {}", scene.path,
-                       glows(scene) ? "only what glows is visible" : "the picture is black");
-  }
+  if (!asks_for_sky && shows_light(options.integrator) && options.environment.none() &&
+      scene.lights.empty() && reflects(scene) && !glows(scene))
+    return fmt::format("{} has no light, and the environment is 'none': the picture is black", scene.path);
   return "";
 }
 
@@ -125,7 +125,7 @@ void PreparedPicture::set_options(const RenderOptions& chosen) {
     denoiser = std::make_unique<Denoiser>(*chosen_denoiser.library, threads,
                                           memory_of_denoiser(scene, options_of_picture));
   const Clock::time_point start = Clock::now();
-  build_world();
+  build_world(judges_view() ? options_to_judge(false) : world_options());
   set_camera(options.camera);
   choose_integrator();
   // A loaded cache needs no more steps, unless the caller sets a number.
@@ -142,7 +142,10 @@ void PreparedPicture::choose_options(const RenderOptions& chosen) {
   const ChosenDenoiser denoiser_before = chosen_denoiser;
   chosen_denoiser = choose_denoiser(chosen.denoise, ranks_);
   if (chosen_denoiser.library != denoiser_before.library) denoiser.reset();
-  RenderOptions next = with_denoiser(with_sky(scene, checked(chosen)), chosen_denoiser);
+  RenderOptions next = with_denoiser(checked(chosen), chosen_denoiser);
+  asks_for_sky = may_need_sky(scene, next);
+  next.environment.automatic = next.environment.automatic && !next.environment.sky &&
+                               shows_light(next.integrator) && (asks_for_sky || scene.image_light);
   const RenderOptions& before = options_of_picture;
   if (next.background != before.background || next.width != before.width || next.height != before.height)
     check_background(next.background, next.width, next.height);
@@ -156,8 +159,7 @@ void PreparedPicture::choose_options(const RenderOptions& chosen) {
   bvh_budget = checked_budget(scene, options_of_picture);
 }
 
-void PreparedPicture::build_world() {
-  const WorldOptions wanted = world_options();
+void PreparedPicture::build_world(const WorldOptions& wanted) {
   if (world && built_ == wanted) return;
   LastingParts lasting;
   if (world) {
@@ -170,6 +172,41 @@ void PreparedPicture::build_world() {
   }
   arena.execute([&] { world.emplace(scene, wanted, lasting); });
   built_ = wanted;
+}
+
+std::optional<bool> PreparedPicture::sky_of_view() const {
+  if (!asks_for_sky || !(glows(scene) || scene.motion.materials)) return {};
+  return options.environment.automatic;
+}
+
+bool PreparedPicture::judges_view() const {
+  return asks_for_sky && !kept_sky && glows(scene);
+}
+
+WorldOptions PreparedPicture::options_to_judge(bool sky) const {
+  WorldOptions judged = world_options();
+  judged.environment.automatic = sky;
+  judged.light_groups.clear();  // they may name the sky
+  return judged;
+}
+
+double PreparedPicture::dark_with(bool sky) {
+  build_world(options_to_judge(sky));
+  const double aspect = static_cast<double>(options.width) / options.height;
+  return arena.execute([&] { return dark_share(*world, view, camera.around(), aspect); });
+}
+
+void PreparedPicture::choose_sky() {
+  if (!asks_for_sky) return;
+  bool sky = kept_sky.value_or(true);
+  if (judges_view()) {
+    constexpr double kMostDark = 0.5, kLeastGain = 0.5;
+    const double dark = dark_with(false);
+    // In a closed room it would show nothing more.
+    sky = agreed(ranks_, dark > kMostDark && dark_with(true) < kLeastGain * dark);
+  }
+  options.environment.automatic = options_of_picture.environment.automatic = sky;
+  build_world(world_options());
 }
 
 void PreparedPicture::describe() {
@@ -232,9 +269,10 @@ void PreparedPicture::set_camera(const CameraOptions& chosen) {
   camera = camera_of_size(options.width, options.height);
   // Rays of an orthographic camera begin at many places.
   if (!view.orthographic) camera.set_around(volumes_around(*world, view.transform.translation()));
+  choose_sky();
   statistics.warnings.clear();
   for (std::string warning :
-       {denoiser_warning(chosen_denoiser), sky_warning(scene, options),
+       {denoiser_warning(chosen_denoiser), sky_warning(scene, options, asks_for_sky),
         made_view(scene, options.camera, view), std::move(focus), world->environment.warning(),
         view_warning(*world, camera, options.width, options.height)}) {
     if (!warning.empty()) statistics.warnings.push_back(std::move(warning));

@@ -31,7 +31,7 @@ struct PreparedPicture {
   /// The pictures from now on have other options. Builds only the parts of the world that depend on what has
   /// changed. Throws the exceptions of the constructor; call it again then, with options that it takes.
   void set_options(const RenderOptions& chosen);
-  /// Changes the view, and the warnings about it.
+  /// Changes the view, and the warnings about it. Builds the lights again where the soft sky comes or goes.
   void set_camera(const CameraOptions& chosen);
   /// The scene shows another time.
   void scene_moved(const CameraOptions& camera);
@@ -40,6 +40,8 @@ struct PreparedPicture {
 
   /// The view of the present scene.
   View chosen_view(const CameraOptions& chosen) const;
+  /// Whether the soft sky lights the view; nothing where no view of the scene can change that.
+  std::optional<bool> sky_of_view() const;
   /// An empty film.
   Film make_film() const;
   /// Samples per pixel of the film for those of the picture.
@@ -65,13 +67,23 @@ struct PreparedPicture {
   ScaleDown scale{1, PixelFilter::box, 1.0f};  ///< from the film to the picture
   std::unique_ptr<Denoiser> denoiser;          ///< null: the picture is as traced
   std::optional<World> world;                  ///< empty only during construction
-  bool steps_chosen = false;                   ///< training steps: from the picture's pixels and samples
-  std::size_t bvh_budget = 0;                  ///< bytes; 0: no limit
-  RenderStatistics statistics;                 ///< of building, with its warnings
+  /// Whether the options ask for a soft sky that the scene may need: it has no lights but what glows.
+  bool asks_for_sky = false;
+  std::optional<bool> kept_sky;  ///< whether the soft sky lights all views and times; empty: each by itself
+  bool steps_chosen = false;     ///< training steps: from the picture's pixels and samples
+  std::size_t bvh_budget = 0;    ///< bytes; 0: no limit
+  RenderStatistics statistics;   ///< of building, with its warnings
 
  private:
   void choose_options(const RenderOptions& chosen);
-  void build_world();
+  void build_world(const WorldOptions& wanted);
+  /// Whether the view decides about the soft sky.
+  bool judges_view() const;
+  WorldOptions options_to_judge(bool sky) const;
+  /// dark_share() of the view, by what glows alone or with the soft sky.
+  double dark_with(bool sky);
+  /// Lights the world with the soft sky where the view needs it.
+  void choose_sky();
   /// Fills in the statistics of the world.
   void describe();
   WorldOptions world_options() const;

@@ -49,6 +49,14 @@ void Renderer::set_camera(const CameraOptions& camera) {
   self.statistics.warnings = self.picture.statistics.warnings;
 }
 
+std::optional<bool> Renderer::soft_sky() const {
+  return implementation_->picture.sky_of_view();
+}
+
+void Renderer::keep_soft_sky(std::optional<bool> sky) {
+  implementation_->picture.kept_sky = sky;
+}
+
 void Renderer::set_options(const RenderOptions& options) {
   implementation_->set_options(options);
 }

@@ -5,33 +5,17 @@
 #include <utility>
 #include <vector>
 
-#include "renderer/light/lit_surfaces.h"
-
 namespace gatelight::renderer {
-namespace {
 
-/// A white surface of this radiance is black in a displayed picture.
-constexpr double kLeastLight = 0.003;
-
-}  // namespace
+bool reflects(const scene::Scene& scene) {
+  return std::any_of(scene.instances.begin(), scene.instances.end(),
+                     [&](const scene::Instance& instance) { return !scene.material_of(instance).unlit; });
+}
 
 bool glows(const scene::Scene& scene) {
   return std::any_of(scene.instances.begin(), scene.instances.end(), [&](const scene::Instance& instance) {
     return scene.material_of(instance).emits() && !scene.mesh_of(instance).triangles.empty();
   });
-}
-
-bool needs_light(const scene::Scene& scene) {
-  if (!scene.lights.empty()) return false;
-  const bool reflects =
-      std::any_of(scene.instances.begin(), scene.instances.end(), [&](const auto& instance) {
-        const scene::Material& material = scene.material_of(instance);
-        return !material.unlit && !material.emits();
-      });
-  if (!reflects || !glows(scene)) return reflects;
-  const bool labels = std::all_of(scene.materials.begin(), scene.materials.end(),
-                                  [](const scene::Material& m) { return (m.emission <= 1.0f).all(); });
-  return labels && lit_radiance(scene) < kLeastLight;
 }
 
 EnvironmentPicture make_soft_sky(float scale) {

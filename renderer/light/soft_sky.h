@@ -6,10 +6,8 @@
 
 namespace gatelight::renderer {
 
-/// Whether some surface reflects light, but no light of the scene lights any: there is none, or only glowing
-/// surfaces that are no lamps but labels, whose emission is a colour of a display (at most 1) and reaches
-/// next to nothing (lit_surfaces.h).
-bool needs_light(const scene::Scene& scene);
+/// Whether there are surfaces to be lit.
+bool reflects(const scene::Scene& scene);
 
 /// Whether some surface emits.
 bool glows(const scene::Scene& scene);

@@ -5,51 +5,9 @@
 #include <gtest/gtest.h>
 
 #include "renderer/light/environment.h"
-#include "tests/support/scene_builder.h"
 
 namespace gatelight::renderer {
 namespace {
-
-using testing::SceneBuilder;
-
-TEST(SoftSky, OnlyScenesWithReflectingSurfacesAndWithoutLightsNeedIt) {
-  SceneBuilder builder;
-  const int clay = builder.material(SceneBuilder::lambert(Color::Ones()));
-  EXPECT_FALSE(needs_light(builder.scene())) << "an empty scene";
-  builder.quad(clay, Vec3::Zero(), Vec3(1, 0, 0), Vec3(0, 1, 0));
-  EXPECT_TRUE(needs_light(builder.scene()));
-  scene::Scene lit = builder.scene();
-  lit.lights.emplace_back();
-  EXPECT_FALSE(needs_light(lit));
-  scene::Scene glowing = builder.scene();
-  glowing.materials[0].emission = Color(0.0f, 0.1f, 0.0f);
-  EXPECT_FALSE(needs_light(glowing));
-  scene::Scene unlit = builder.scene();
-  unlit.materials[0].unlit = true;
-  EXPECT_FALSE(needs_light(unlit));
-  builder.scene().materials[0].unlit = true;
-  builder.quad(builder.material(SceneBuilder::lambert(Color::Ones())), Vec3(0, 0, 1), Vec3(1, 0, 0),
-               Vec3(0, 1, 0));
-  EXPECT_TRUE(needs_light(builder.scene())) << "one surface is unlit, the other is not";
-}
-
-// A surface of 1 m stands 1 m before a glowing one.
-TEST(SoftSky, WhatGlowsLightsTheSidesThatMaterialsHave) {
-  const auto needs = [](bool towards, bool double_sided) {
-    SceneBuilder builder;
-    scene::Material label = SceneBuilder::lambert(Color::Zero());
-    label.emission = Color::Ones();
-    builder.quad(builder.material(label), Vec3(0, 0, -1), Vec3(1, 0, 0), Vec3(0, 1, 0));
-    scene::Material clay = SceneBuilder::lambert(Color::Ones());
-    clay.double_sided = double_sided;
-    const Vec3 x = towards ? Vec3(0, 1, 0) : Vec3(1, 0, 0), y = towards ? Vec3(1, 0, 0) : Vec3(0, 1, 0);
-    builder.quad(builder.material(clay), Vec3::Zero(), x, y);
-    return needs_light(builder.scene());
-  };
-  EXPECT_FALSE(needs(true, false));
-  EXPECT_TRUE(needs(false, false));
-  EXPECT_FALSE(needs(false, true));
-}
 
 TEST(SoftSky, MakesWhiteSurfacesNeitherDarkNorOverexposed) {
   EnvironmentOptions options;

@@ -1,0 +1,107 @@
+#include "renderer/transport/dark_share.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "base/parallel/loops.h"
+#include "renderer/film/film_samples.h"
+#include "renderer/image/auto_exposure.h"
+#include "renderer/image/tonemap.h"
+#include "renderer/transport/path_integrator.h"
+
+namespace gatelight::renderer {
+namespace {
+
+constexpr int kPlaces = 400, kSamples = 16, kBounces = 3;
+/// Rays see textures as those of a picture with so many times more rows.
+constexpr float kDetail = 16.0f;
+/// Of a displayed picture, whose middle grey is 0.18. A screen shows less as black.
+constexpr float kBlack = 0.003f;
+
+/// A place of the picture: what its samples see.
+struct Place {
+  Color radiance{0.0f, 0.0f, 0.0f};
+  std::array<float, kSamples> light{}, glow{};  ///< luminance at the surface, and of its own emission
+  std::array<bool, kSamples> hit{};
+};
+
+/// Paths of one place, and the same without bounces.
+class Eye {
+ public:
+  Eye(const World& world, const View& view, const Interior& around, int width, int height)
+      : camera_(view, width, height),
+        width_(width),
+        lit_(world, path_integrator_options({.max_depth = kBounces})),
+        glow_(world, path_integrator_options({.max_depth = 0})) {
+    camera_.set_around(around);
+  }
+
+  Place look(int number) const {
+    const RenderOptions options;
+    const FilterSampler filter(PixelFilter::box, 1.0f);
+    std::vector<CameraSample> samples;
+    for (std::uint32_t i = 0; i < kSamples; ++i) {
+      samples.push_back(
+          make_camera_sample({{number % width_, number / width_}, i}, options, camera_, filter));
+      samples.back().camera_ray.cone.width /= kDetail;
+      samples.back().camera_ray.cone.spread /= kDetail;
+    }
+    std::vector<SampleResult> light(kSamples), glow(kSamples);
+    std::vector<FirstHit> hits(kSamples);
+    PathIntegrator::Scratch scratch;
+    RayCounts rays;
+    lit_.trace(samples, light, hits, rays, scratch);
+    glow_.trace(samples, glow, {}, rays, scratch);
+    Place place;
+    for (std::size_t i = 0; i < kSamples; ++i) {
+      if (!light[i].radiance.isFinite().all()) continue;
+      place.radiance += light[i].radiance / kSamples;
+      place.hit[i] = hits[i].hit;
+      place.light[i] = luminance(light[i].radiance);
+      place.glow[i] = luminance(glow[i].radiance);
+    }
+    return place;
+  }
+
+ private:
+  Camera camera_;
+  int width_;
+  PathIntegrator lit_, glow_;
+};
+
+float exposure_of(const std::vector<Place>& places) {
+  Picture picture;
+  Layer& beauty = picture.layers.emplace_back();
+  beauty.channels = {"R", "G", "B"};
+  for (const Place& place : places)
+    beauty.values.insert(beauty.values.end(), place.radiance.begin(), place.radiance.end());
+  return exposure_scale(auto_exposure(picture));
+}
+
+}  // namespace
+
+double dark_share(const World& world, const View& view, const Interior& around, double aspect) {
+  const int width = std::clamp(static_cast<int>(std::lround(std::sqrt(kPlaces * aspect))), 1, kPlaces);
+  const int height = kPlaces / width;
+  const Eye eye(world, view, around, width, height);
+  std::vector<Place> places(static_cast<std::size_t>(width * height));
+  for_each(places.size(), [&](std::size_t i) { places[i] = eye.look(static_cast<int>(i)); });
+  const float exposure = exposure_of(places);
+  double dark = 0.0, all = 0.0;
+  for (const Place& place : places) {
+    double light = 0.0;
+    int matte = 0;  // samples that meet a surface without glow
+    for (std::size_t i = 0; i < kSamples; ++i) {
+      if (!place.hit[i] || place.glow[i] * exposure >= kBlack) continue;
+      light += static_cast<double>(place.light[i]);
+      ++matte;
+    }
+    all += matte;
+    if (light * static_cast<double>(exposure) < static_cast<double>(kBlack) * matte) dark += matte;
+  }
+  return all > 0.0 ? dark / all : 0.0;
+}
+
+}  // namespace gatelight::renderer
