@@ -97,8 +97,9 @@ ShutterTimes::ShutterTimes(const Animator& animator, double middle, double lengt
   points.push_back(centre);
   add_between(single(centre), single(closing));
   points.push_back(closing);
-  divide(points, 0);
-  if (intervals() <= kMostShutterIntervals) return;
+  const bool few = corners.size() <= static_cast<std::size_t>(kMostShutterIntervals);
+  if (few) divide(points, 0);
+  if (few && intervals() <= kMostShutterIntervals) return;
   warnings.add(fmt::format("{} keys while the shutter is open: motion is blurred between {} even times",
                            corners.size(), kMostShutterIntervals + 1));
   centre.jumps = closing.jumps = false;
