@@ -114,6 +114,7 @@ CacheSession::CacheSession(const World& world, const Camera& camera, const Pixel
       setup_(std::move(earlier.setup_)),
       trainer_(std::move(earlier.trainer_)),
       steps_(earlier.steps_),
+      fits_(earlier.steps_ == 0),
       first_statistics_(earlier.first_statistics_) {
   const Clock::time_point start = Clock::now();
   const std::vector<std::uint32_t> counts(earlier.counts_.values().begin(), earlier.counts_.values().end());
@@ -126,6 +127,8 @@ CacheSession::CacheSession(const World& world, const Camera& camera, const Pixel
 
 void CacheSession::connect(const World& world, const Camera& camera, const PixelRect& region) {
   const neural::Model& model = trainer_->model();
+  scene_ = &world.scene;
+  dark_ = options_.integrator == Integrator::nrc && world.is_dark();
   inputs_ = PointInputs(model.config);
   const bool gate = model.config.encoding == neural::FeatureEncoding::gate;
   if (gate) stored_ = StoredSurfaces(world.scene, setup_.sides);
@@ -151,19 +154,28 @@ void CacheSession::start_anew(bool keeps_samples) {
   start.state.triangle_counts.assign(counts_.values().size(), 0);
   if (keeps_samples) start.state.samples = samples_;
   return_to(start);
+  fits_ = true;
 }
 
 std::uint64_t CacheSession::answer(const SurfacePoints& points, std::span<float> answers) const {
-  return ask_cache(*trainer_,
-                   options_.cache.bf16_queries ? neural::QueryPrecision::bf16 : neural::QueryPrecision::fp32,
-                   records_->units(setup_), points, answers);
+  return ask(options_.cache.bf16_queries ? neural::QueryPrecision::bf16 : neural::QueryPrecision::fp32,
+             points, answers);
 }
 
-double CacheSession::light_change(const scene::Scene& scene, const RecordBatch& group) const {
+std::uint64_t CacheSession::ask(neural::QueryPrecision precision, const SurfacePoints& points,
+                                std::span<float> answers) const {
+  if (!dark_) return ask_cache(*trainer_, precision, records_->units(setup_), points, answers);
+  std::fill(answers.begin(), answers.end(), 0.0f);
+  return 0;
+}
+
+void CacheSession::look_at_light(const RecordBatch& group) {
   std::vector<float> answers(group.records.size() * outputs());
-  if (answers.empty()) return 0.0;
+  if (answers.empty()) return;
   trainer_->query(group.records.batch(), {.range = neural::OutputRange::raw}, answers);
-  return renderer::light_change(scene, group, answers, outputs());
+  const double change = renderer::light_change(*scene_, group, answers, outputs());
+  if (!light_change_) light_change_ = change;
+  fits_ = change <= kUnchangedLight;
 }
 
 void CacheSession::forget_beyond(std::uint32_t steps) {

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 
 #include "neural/trainer.h"
 #include "renderer/cache/cache_state.h"
@@ -25,7 +26,8 @@ class CacheSession {
                const std::function<void(const neural::Model&)>& expect_model = {},
                const RankTiles* ranks = nullptr);
   /// Goes on with the cache of another view or time of the same scene, which it takes over. The samples of
-  /// the picture begin anew, and the guard forgets what it has seen.
+  /// the picture begin anew, and the guard forgets what it has seen. As long as the cache answers for another
+  /// light than the records show, paths are traced to their ends, and samples of the picture end nowhere.
   CacheSession(const World& world, const Camera& camera, const PixelRect& region,
                const RenderOptions& options, CacheSession&& earlier, const RankTiles* ranks = nullptr);
   ~CacheSession();
@@ -39,8 +41,6 @@ class CacheSession {
     std::function<void(const RecordBatch& group)> samples;
     /// Receives the work of each rank since the last call, about once a second. May redistribute the shares.
     std::function<void(const std::vector<RankWork>& work)> rebalance;
-    /// Called before the cache learns from a group.
-    std::function<void(const RecordBatch& group)> before_learning;
   };
   /// Trains until steps() reaches `steps`, or until it is stopped or out of time. The paths of a group of
   /// steps are traced together; the callbacks are called between groups. Gives the same bits for any number
@@ -83,8 +83,8 @@ class CacheSession {
   /// The state's setup must be this session's.
   void import_state(const CacheState& state);
 
-  /// light_change() of the records of a group that the cache has not learned from.
-  double light_change(const scene::Scene& scene, const RecordBatch& group) const;
+  /// Of a cache that was taken over: light_change() of the first group of records, before it learned them.
+  double light_change() const { return light_change_.value_or(0.0); }
   /// Shortens the memory of the optimiser to some steps: rates of learning, and averages, are as after them.
   void forget_beyond(std::uint32_t steps);
 
@@ -128,10 +128,17 @@ class CacheSession {
   /// Takes the records of all ranks.
   void receive(Group& group, const Watch& watch);
   void learn(const RecordBatch& group, std::uint64_t batch, Team& team);
+  /// Compares records that are not learned yet with the answers.
+  void look_at_light(const RecordBatch& group);
+  /// ask_cache(); no light where the world has none, which a network only comes near to.
+  std::uint64_t ask(neural::QueryPrecision precision, const SurfacePoints& points,
+                    std::span<float> answers) const;
   void rebalance(const Watch& watch);
   void look_at_answers(const RecordBatch& group);
 
   const RenderOptions& options_;
+  const scene::Scene* scene_ = nullptr;
+  bool dark_ = false;  ///< there is no light to learn
   const RankTiles* ranks_;
   std::vector<RankWork> work_;  ///< of the ranks, since the last rebalance
   std::uint64_t paths_of_rank_ = 0;
@@ -148,6 +155,8 @@ class CacheSession {
   std::uint64_t steps_under_way_ = 0;  ///< part of steps_: submitted to a device, not finished
   TriangleCounts counts_;
   TrainingGuard guard_;
+  bool fits_ = true;  ///< the cache has learned the present light, as far as its records tell
+  std::optional<double> light_change_;
   std::vector<double> last_losses_;
   RayCounts scout_rays_;
   RayCounts unlearned_rays_;  ///< of a group that is traced and not learned yet

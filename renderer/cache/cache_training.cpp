@@ -49,7 +49,7 @@ std::uint64_t CacheSession::last_group_end(std::uint64_t steps) const {
 RecordRequest CacheSession::request(std::uint64_t step, std::uint64_t count,
                                     std::uint64_t first_sample) const {
   const std::uint64_t records = options_.cache.batch * count;
-  RecordRequest request = records_->request(setup_, step, records);
+  RecordRequest request = records_->request(setup_, step, records, !fits_);
   request.most_records = records;
   request.batches = count;
   request.first_sample = first_sample;
@@ -102,7 +102,7 @@ void CacheSession::finish(Group& group) {
   std::atomic<double> asked = 0.0;  // by all threads
   const auto ask = [&](const SurfacePoints& points, std::span<float> answers) {
     const Clock::time_point start = Clock::now();
-    ask_cache(*trainer_, neural::QueryPrecision::fp32, records_->units(setup_), points, answers);
+    this->ask(neural::QueryPrecision::fp32, points, answers);
     asked += seconds_since(start);
   };
   records_->finish({ask, threads}, group.records);
@@ -135,9 +135,10 @@ void CacheSession::receive(Group& group, const Watch& watch) {
   records_->split(group.request, records);
   statistics_.training_paths += records.paths_traced;
   samples_ += group.samples();
+  if (!fits_) look_at_light(records);
+  if (!fits_) records.radiance.swap(records.traced);
   if (watch.samples && group.samples() > 0) watch.samples(records);
   statistics_.train_trace_seconds += seconds_since(begin);
-  if (watch.before_learning) watch.before_learning(records);
 }
 
 void CacheSession::trace_and_learn(Group* next, Group* learning, const Watch& watch, Team& team) {

@@ -16,7 +16,8 @@ class OcclusionRecords : public RecordSource {
   OcclusionRecords(const World& world, const TrainingPoints& points, const RenderOptions& options,
                    const StoredSurfaces& stored, float distance, const PointInputs& inputs);
 
-  RecordRequest request(const CacheSetup& setup, std::uint64_t step, std::uint64_t records) const override {
+  RecordRequest request(const CacheSetup& setup, std::uint64_t step, std::uint64_t records,
+                        bool /*to_the_end*/) const override {
     return {.step = step,
             .points = points_for(static_cast<double>(records), static_cast<double>(setup.records_per_path))};
   }

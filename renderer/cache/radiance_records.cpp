@@ -21,13 +21,14 @@ RadianceRecords::RadianceRecords(const CachedPaths& paths, const TrainingPoints&
   guides_ = has(options.aovs, Aov::cache_radiance);
 }
 
-RecordRequest RadianceRecords::request(const CacheSetup& setup, std::uint64_t step,
-                                       std::uint64_t records) const {
+RecordRequest RadianceRecords::request(const CacheSetup& setup, std::uint64_t step, std::uint64_t records,
+                                       bool to_the_end) const {
   const int start = options_.cache.self_training.start_step;
   RecordRequest request{.step = step,
                         .target_scale = setup.target_scale,
                         .contribution_threshold = kThresholdShare / setup.target_scale};
-  request.self_training = start >= 0 && step >= static_cast<std::uint64_t>(start);
+  request.to_the_end = to_the_end;
+  request.self_training = !to_the_end && start >= 0 && step >= static_cast<std::uint64_t>(start);
   request.samples = options_.cache.source == TrainingSource::picture &&
                     step >= static_cast<std::uint64_t>(options_.cache.samples_from_step);
   double per_point =
@@ -48,6 +49,7 @@ void RadianceRecords::begin(const RecordRequest& request, RecordBatch& batch) {
   if (request.ranks) choose_tracers(batch, *request.ranks);
   const bool samples = !batch.starts.samples.empty();
   batch.first_hits.resize(samples ? batch.starts.starts.size() : 0);
+  batch.traced.resize(samples && request.to_the_end ? batch.starts.starts.size() : 0);
   PathPlan& plan = batch.plan = {};
   plan.records = true;
   if (samples) {
@@ -113,7 +115,10 @@ void RadianceRecords::finish(const AnswerPoints& answer, RecordBatch& batch) {
     resolve(answers, batch, block);
   };
   const auto end_block = [&](std::span<const float> answers, std::size_t block) {
-    batch.paths[block].end_samples(answers, std::span(batch.radiance).subspan(batch.starts.offsets[block]));
+    const std::size_t first = batch.starts.offsets[block];
+    const auto radiance = std::span(batch.radiance).subspan(first, batch.paths[block].paths());
+    if (!batch.traced.empty()) std::copy(radiance.begin(), radiance.end(), &batch.traced[first]);
+    batch.paths[block].end_samples(answers, radiance);
   };
   if (!answer.threads) {  // a device, which needs the points of all blocks at once
     ask_together(answer, batch, queries, resolve_block);

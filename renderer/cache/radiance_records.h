@@ -15,7 +15,8 @@ class RadianceRecords : public RecordSource {
   RadianceRecords(const CachedPaths& paths, const TrainingPoints& points, const RenderOptions& options,
                   const PointInputs& inputs);
 
-  RecordRequest request(const CacheSetup& setup, std::uint64_t step, std::uint64_t records) const override;
+  RecordRequest request(const CacheSetup& setup, std::uint64_t step, std::uint64_t records,
+                        bool to_the_end) const override;
   AnswerUnits units(const CacheSetup& setup) const override { return {1.0f / setup.target_scale}; }
   std::size_t outputs() const override { return 3; }
   const PointInputs& inputs() const override { return inputs_; }

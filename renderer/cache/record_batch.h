@@ -56,6 +56,7 @@ struct RecordRequest {
   std::size_t most_records = 0;    ///< limit; excess records are left out evenly; 0: all are kept
   std::uint64_t batches = 1;       ///< one for each step
   bool self_training = false;
+  bool to_the_end = false;  ///< samples of the picture may have to end nowhere: RecordBatch::traced
   float target_scale = 1.0f;
   float contribution_threshold = 0.0f;    ///< PathPlan::contribution_threshold
   std::span<const std::uint32_t> counts;  ///< training steps of each triangle with storage; may be empty
@@ -77,6 +78,7 @@ struct RecordBatch {
   /// First hits and radiance of starts that are the picture's samples; else empty.
   std::vector<FirstHit> first_hits;
   std::vector<Color> radiance;
+  std::vector<Color> traced;     ///< the same without an end in the cache, if RecordRequest::to_the_end
   std::vector<PathBatch> paths;  ///< one for each block of starts, with the records of the block
   SurfacePoints records;
   std::vector<float> targets;  ///< outputs for each record, times the scale of targets
@@ -123,7 +125,9 @@ class RecordSource {
  public:
   virtual ~RecordSource() = default;
   /// A request for about `records` records, from `step` on. The caller sets most_records, batches and counts.
-  virtual RecordRequest request(const CacheSetup& setup, std::uint64_t step, std::uint64_t records) const = 0;
+  /// `to_the_end`: the cache may have learned another light, so no path ends in it unasked.
+  virtual RecordRequest request(const CacheSetup& setup, std::uint64_t step, std::uint64_t records,
+                                bool to_the_end) const = 0;
   /// The units of answers of a cache that is trained with these records.
   virtual AnswerUnits units(const CacheSetup& setup) const = 0;
   virtual std::size_t outputs() const = 0;  ///< targets of a record

@@ -36,6 +36,7 @@ Bytes pack_records(const RecordBatch& batch, const RankTiles& ranks, const RankW
       if (ranks.owns(batch.starts.samples[i].pixel)) continue;
       packer.add(static_cast<std::uint64_t>(i));
       packer.add(batch.radiance[i]);
+      if (!batch.traced.empty()) packer.add(batch.traced[i]);
       packer.add(batch.first_hits[i]);
     }
   }
@@ -60,9 +61,11 @@ std::vector<RankWork> unpack_records(const std::vector<Bytes>& all, const RankTi
     while (!unpacker.done()) {
       const auto i = static_cast<std::size_t>(unpacker.read<std::uint64_t>());
       const auto radiance = unpacker.read<Color>();
+      const auto traced = batch.traced.empty() ? radiance : unpacker.read<Color>();
       const auto first = unpacker.read<FirstHit>();
       if (!ranks.owns(batch.starts.samples[i].pixel)) continue;
       batch.radiance[i] = radiance;
+      if (!batch.traced.empty()) batch.traced[i] = traced;
       batch.first_hits[i] = first;
     }
   }

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "renderer/cache/cache_file.h"
+#include "renderer/cache/light_change.h"
 #include "renderer/driver/cache_sessions.h"
 #include "renderer/driver/frame_file.h"
 #include "renderer/settings/enum_names.h"
@@ -14,8 +15,7 @@
 namespace gatelight::renderer {
 namespace {
 
-/// Below the first the light has not changed; from the second on the cache begins anew.
-constexpr double kUnchanged = 0.02;
+/// From this change of the light on the cache begins anew.
 constexpr double kChanged = 0.1;
 /// Steps of a cache for many frames, in those of a still with as many samples: presets of frames have three
 /// quarters of the samples of a still, and as many steps.
@@ -138,7 +138,7 @@ void FrameMemory::write(const PreparedPicture& picture, const std::filesystem::p
 }
 
 int steps_after_change(double change, int steps) {
-  const double share = std::clamp((change - kUnchanged) / (kChanged - kUnchanged), 0.0, 1.0);
+  const double share = std::clamp((change - kUnchangedLight) / (kChanged - kUnchangedLight), 0.0, 1.0);
   return static_cast<int>(std::lround(share * steps));
 }
 

@@ -107,7 +107,6 @@ void Training::train(int steps, Film& film, const std::function<void()>& after_g
   };
   watch.rebalance = [&](const std::vector<RankWork>& work) { tiles.rebalance(film, work); };
   watch.after_group = after_group;
-  watch.before_learning = before_learning_;
   if (makes_samples())
     watch.samples = [&](const RecordBatch& group) {
       group.add_to(film, options_, ranks.is_single() ? nullptr : &tiles.owners(), counts_);
@@ -127,23 +126,24 @@ void Training::train(int steps, Film& film, const std::function<void()>& after_g
 }
 
 void Training::train_on(Film& film, FrameMemory& memory) {
+  if (options_.integrator == Integrator::nrc && context_.picture.world->is_dark()) {
+    memory.history.reset();
+    complete_ = true;  // what the cache knows is for the time when the lamps are on again
+    return;
+  }
   if (first_step_ == 0) return train(fresh_steps_, film);
-  double change = -1.0;
-  before_learning_ = [&](const RecordBatch& group) {
-    if (change < 0.0) change = session_->light_change(context_.picture.scene, group);
-  };
-  train(std::min(kLeastKept, fresh_steps_), film);
-  before_learning_ = nullptr;
-  light_change_ = std::max(change, 0.0);
+  const auto first_group = static_cast<int>(session_->group_end(first_step_) - first_step_);
+  train(std::min(first_group, fresh_steps_), film);
   if (stopped_) return;
-  if (begins_anew(light_change_)) {
+  const double change = session_->light_change();
+  if (begins_anew(change)) {
     memory.history.reset();
     session_->start_anew(true);
     first_step_ = 0;
     return train(fresh_steps_, film);
   }
   const int usual = std::min(std::max(fresh_steps_ / kShareOfFresh, kLeastKept), fresh_steps_);
-  const int more = steps_after_change(light_change_, fresh_steps_ - usual);
+  const int more = steps_after_change(change, fresh_steps_ - usual);
   if (more > 0) session_->forget_beyond(kMemoryAfterChange);
   train(usual + more, film);
 }
@@ -197,7 +197,7 @@ void Training::add_to(RenderStatistics& statistics) const {
   statistics.cache = session_->statistics();
   statistics.cache.steps_chosen = steps_chosen_;
   statistics.cache.steps_wanted = steps_;
-  statistics.cache.light_change = light_change_;
+  statistics.cache.light_change = session_->light_change();
   statistics.cache.diverged = diverged_;
 }
 

@@ -76,9 +76,7 @@ class Training {
   bool complete_ = false;
   bool stopped_ = false;
   Clock::time_point end_ = Clock::time_point::max();
-  int fresh_steps_ = 0;  ///< in an animation: FrameMemory::fresh_steps
-  double light_change_ = 0.0;
-  std::function<void(const RecordBatch&)> before_learning_;
+  int fresh_steps_ = 0;   ///< in an animation: FrameMemory::fresh_steps
   std::string diverged_;  ///< why training returned to its last good state; else empty
   SampleCounts counts_;
 };

@@ -80,4 +80,11 @@ World::World(const scene::Scene& scene_in, const WorldOptions& options, const La
       separate_background(options.background.is_separate()),
       catchers(find_catchers(scene, options.background)) {}
 
+bool World::is_dark() const {
+  return lights.empty() &&
+         std::none_of(scene.instances.begin(), scene.instances.end(), [&](const scene::Instance& instance) {
+           return !instance.hidden && scene.material_of(instance).unlit;
+         });
+}
+
 }  // namespace gatelight::renderer

@@ -65,6 +65,8 @@ struct World {
   bool separate_background;  ///< the environment lights the scene, but is invisible to the camera
   /// 1 for shadow catchers, which are not visible themselves; empty without any.
   std::vector<std::uint8_t> catchers;
+  /// Whether all pictures are black: no light, and no surface that shows its own colour (unlit).
+  bool is_dark() const;
   bool catches(std::uint32_t instance) const { return !catchers.empty() && catchers[instance] != 0; }
 };
 

@@ -71,6 +71,12 @@ TEST(LightChange, IsTheShareOfWhatChanged) {
   EXPECT_NEAR(records.change(), 0.4, 0.08) << "half of the records have four fifths too much";
 }
 
+TEST(LightChange, NoticesALittleLessEverywhere) {
+  Records records(3.0);
+  for (float& target : records.batch.targets) target *= 0.9f;
+  EXPECT_NEAR(records.change(), 0.1, 0.03) << "too little for any cell";
+}
+
 TEST(LightChange, LeavesOutWhatIsNotFinite) {
   Records records(0.0);
   records.batch.targets[0] = std::nanf("");
