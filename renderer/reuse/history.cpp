@@ -12,42 +12,13 @@
 namespace gatelight::renderer {
 namespace {
 
-/// Colours of surfaces below this are not divided out.
-constexpr float kDarkest = 0.02f;
 /// The earlier point of a pixel lies near the present one: in normal direction at most this many pixels away,
 /// along the surface this many.
 constexpr float kMostAcross = 1.0f, kMostAlong = 3.0f;
-constexpr float kLeastCosine = 0.9f;
-/// Pixels so near an edge, in each direction, mix the light of surfaces: filters of pixels and the denoiser
-/// reach as far. What they show is not carried. A dark arch before a sunlit wall would grow brighter as it
-/// comes nearer.
-constexpr int kAroundEdge = 2;
 /// Pixels around, in each direction, whose probes are compared. Their light is the same up to the first
 /// relative change, and another from the second on.
 constexpr int kAroundProbe = 2;
 constexpr float kUnchanged = 0.03f, kChanged = 0.2f;
-/// Pixels around, in each direction, whose light is compared; its difference is allowed to be so many
-/// standard errors and this share of the light, and twice of both is too much.
-constexpr int kAround = 4;
-constexpr float kStandardErrors = 2.0f, kAllowed = 0.05f;
-/// Pixels around, in each direction, whose samples decide how bright the carried light is.
-constexpr int kAroundMatch = 24;
-/// The carried light is mixed in by its full share in means over so many pixels around, in each direction; by
-/// at most this share in what is finer.
-constexpr int kAroundLow = 4;
-constexpr float kMostHigh = 0.5f;
-/// Most change of these means.
-constexpr float kMostRatio = 2.0f;
-
-float factor(float albedo) {
-  return albedo > kDarkest ? albedo : 1.0f;
-}
-
-/// Luminance of the light on a surface.
-float light_of(const float* color, const float* albedo) {
-  return luminance(
-      Color(color[0] / factor(albedo[0]), color[1] / factor(albedo[1]), color[2] / factor(albedo[2])));
-}
 
 bool same_surface(const VisiblePoint& there, const VisiblePoint& now, const EarlierPoint& earlier) {
   if (!there.hit || there.hit.instance != now.hit.instance) return false;
@@ -66,13 +37,6 @@ float same_gloss(const VisiblePoint& now, const EarlierPoint& earlier) {
   return 1.0f - now.glossy * (1.0f - std::exp(-turned * turned));
 }
 
-/// What a pixel may take over.
-struct Carried {
-  Color color{0.0f, 0.0f, 0.0f};
-  float samples = 0.0f;
-  float probe = 0.0f;
-};
-
 class Carrier {
  public:
   Carrier(const Film& film, const VisiblePoints& points, const std::vector<float>& probes,
@@ -81,22 +45,31 @@ class Carrier {
         points_(points),
         probes_(probes),
         history_(history),
-        color_(film.plane(Plane::mean, rect_.y0, rect_.y1)),
-        albedo_(film.plane(Plane::albedo, rect_.y0, rect_.y1)),
+        frame_{rect_,
+               film.plane(Plane::mean, rect_.y0, rect_.y1),
+               film.plane(Plane::albedo, rect_.y0, rect_.y1),
+               {},
+               {}},
         film_(film),
         carried_(film.pixels()) {}
 
-  Reuse run() {
+  CarriedLight run() {
+    frame_.count.resize(carried_.size());
+    frame_.variance.resize(carried_.size());
+    for_each_pixel([&](std::size_t i) {
+      frame_.count[i] = static_cast<float>(film_.sums().radiance[i].count);
+      frame_.variance[i] = variance_of_light(i);
+    });
     edges_.resize(carried_.size());
     for_each_pixel([&](std::size_t i) { edges_[i] = is_edge(i) ? 1.0f : 0.0f; });
     box_filter(edges_, rect_.width(), rect_.height(), kAroundEdge);
     if (history_) {
       carry();
       if (!probes_.empty() && !history_->probes.empty()) compare_probes();
-      compare_samples();
-      match_brightness();
+      compare_samples(frame_, carried_);
+      match_brightness(frame_, carried_);
     }
-    return result();
+    return with_carried(frame_, carried_, edges_);
   }
 
  private:
@@ -140,7 +113,7 @@ class Carrier {
     }
     if (!(weights > 0.01f)) return {};
     sum.color /= weights;
-    sum.samples = std::min(sum.samples, kMostEarlier * samples(i)) * weights * same_gloss(now, earlier);
+    sum.samples = std::min(sum.samples, kMostEarlier * frame_.count[i]) * weights * same_gloss(now, earlier);
     sum.probe /= weights;
     return sum;
   }
@@ -175,104 +148,30 @@ class Carrier {
     });
   }
 
-  /// Takes less over where the light around has changed by more than its noise.
-  void compare_samples() {
-    const std::size_t pixels = carried_.size();
-    std::vector<float> there(pixels), now(pixels), before(pixels), variance(pixels);
-    for_each_pixel([&](std::size_t i) {
-      const Carried& carried = carried_[i];
-      if (!(carried.samples > 0.0f)) return;
-      there[i] = 1.0f;
-      now[i] = light_of(&color_[3 * i], &albedo_[3 * i]);
-      before[i] = light_of(carried.color.data(), &albedo_[3 * i]);
-      const float of_mean = variance_of_light(i);
-      variance[i] = of_mean * (1.0f + samples(i) / carried.samples);
-    });
-    for (std::vector<float>* plane : {&there, &now, &before, &variance})
-      box_filter(*plane, rect_.width(), rect_.height(), kAround);
-    constexpr float kArea = (2 * kAround + 1) * (2 * kAround + 1);
-    for_each_pixel([&](std::size_t i) {
-      Carried& carried = carried_[i];
-      if (!(carried.samples > 0.0f)) return;
-      const float pixels_there = there[i] * kArea;
-      const float difference = std::abs(now[i] - before[i]) / there[i];
-      const float noise = std::sqrt(variance[i] / there[i] / pixels_there);
-      const float allowed = kStandardErrors * noise + kAllowed * std::max(now[i], before[i]) / there[i];
-      const float excess = allowed > 0.0f ? difference / allowed : 0.0f;
-      carried.samples *= std::clamp(2.0f - excess, 0.0f, 1.0f);
-    });
-  }
-
-  /// Corrects the carried light by the mean ratio of the samples to it, as far as their noise lets it be
-  /// known: what a rough surface reflects changes slowly with the view.
-  void match_brightness() {
-    const std::size_t pixels = carried_.size();
-    std::vector<float> there(pixels), ratio(pixels), variance(pixels);
-    for_each_pixel([&](std::size_t i) {
-      const float before = luminance(carried_[i].color);
-      if (!(carried_[i].samples > 0.0f) || !(before > 0.0f)) return;
-      there[i] = 1.0f;
-      ratio[i] = luminance(Color(color_[3 * i], color_[3 * i + 1], color_[3 * i + 2])) / before;
-      const float light = light_of(carried_[i].color.data(), &albedo_[3 * i]);
-      variance[i] = variance_of_light(i) / (light * light);
-    });
-    for (std::vector<float>* plane : {&there, &ratio, &variance})
-      box_filter(*plane, rect_.width(), rect_.height(), kAroundMatch);
-    constexpr float kArea = (2 * kAroundMatch + 1) * (2 * kAroundMatch + 1);
-    for_each_pixel([&](std::size_t i) {
-      if (!(carried_[i].samples > 0.0f) || !(there[i] > 0.0f)) return;
-      const float difference = ratio[i] / there[i] - 1.0f;
-      const float noise = variance[i] / there[i] / (there[i] * kArea);
-      const float known = std::max(difference * difference - kStandardErrors * kStandardErrors * noise, 0.0f);
-      const float share = known > 0.0f ? known / (known + noise) : 0.0f;
-      carried_[i].color *= std::clamp(1.0f + share * difference, 1.0f / kMostRatio, kMostRatio);
-    });
-  }
-
-  float samples(std::size_t i) const { return static_cast<float>(film_.sums().radiance[i].count); }
-
   /// The variance of the mean of a pixel's luminance, without the surface's colour.
   float variance_of_light(std::size_t i) const {
     const RadianceSum& p = film_.sums().radiance[i];
     if (p.count < 2) {
-      const float light = light_of(&color_[3 * i], &albedo_[3 * i]);
+      const float light = light_of(&frame_.color[3 * i], &frame_.albedo[3 * i]);
       return light * light;
     }
     const double n = p.count;
     Color variance;
     for (std::size_t c = 0; c < 3; ++c) {
       const double mean = p.sum[c] / n;
-      const float f = factor(albedo_[3 * i + c]);
+      const float f = light_divisor(frame_.albedo[3 * i + c]);
       variance[static_cast<Eigen::Index>(c)] =
           static_cast<float>(std::max(p.square[c] / n - mean * mean, 0.0) / (n - 1.0)) / (f * f);
     }
     return variance.maxCoeff();
   }
 
-  Reuse result() const {
-    const std::size_t pixels = carried_.size();
-    Reuse result;
-    if (history_) result.color.resize(3 * pixels);
-    result.weight.resize(pixels);
-    result.samples.resize(pixels);
-    for_each_pixel([&](std::size_t i) {
-      const Carried& carried = carried_[i];
-      result.samples[i] = edges_[i] > 0.0f ? 0.0f : samples(i) + carried.samples;
-      if (!(carried.samples > 0.0f)) return;
-      result.weight[i] = carried.samples / result.samples[i];
-      std::copy_n(carried.color.data(), 3, &result.color[3 * i]);
-    });
-    const auto taken =
-        std::count_if(result.weight.begin(), result.weight.end(), [](float w) { return w > 0.0f; });
-    result.share = static_cast<double>(taken) / static_cast<double>(std::max<std::size_t>(pixels, 1));
-    return result;
-  }
-
   PixelRect rect_;
   const VisiblePoints& points_;
   const std::vector<float>& probes_;
   const History* history_;  ///< null: there is none
-  std::vector<float> color_, albedo_, edges_;
+  FrameSamples frame_;
+  std::vector<float> edges_;
   const Film& film_;
   std::vector<Carried> carried_;
 };
@@ -281,42 +180,11 @@ class Carrier {
 
 Reuse reuse_samples(const Film& film, VisiblePoints points, std::vector<float> probes,
                     const History* history) {
-  Reuse reuse = Carrier(film, points, probes, history).run();
+  Reuse reuse{Carrier(film, points, probes, history).run()};
+  if (!history) reuse.color.clear();
   reuse.points = std::move(points);
   reuse.probes = std::move(probes);
   return reuse;
-}
-
-void mix_light(const Reuse& reuse, const PixelRect& rect, std::vector<float>& denoised) {
-  if (reuse.color.empty()) return;
-  const std::size_t pixels = reuse.weight.size();
-  const auto mean_around = [&](std::vector<float>& plane) {
-    box_filter(plane, rect.width(), rect.height(), kAroundLow);
-  };
-  std::vector<float> weight = reuse.weight, there(pixels);
-  for (std::size_t i = 0; i < pixels; ++i) there[i] = weight[i] > 0.0f ? 1.0f : 0.0f;
-  mean_around(weight);
-  mean_around(there);
-  for (std::size_t c = 0; c < 3; ++c) {
-    std::vector<float> before(pixels), now(pixels);
-    for (std::size_t i = 0; i < pixels; ++i) {
-      if (!(reuse.weight[i] > 0.0f)) continue;
-      before[i] = reuse.color[3 * i + c];
-      now[i] = denoised[3 * i + c];
-    }
-    mean_around(before);
-    mean_around(now);
-    for (std::size_t i = 0; i < pixels; ++i) {
-      if (!(there[i] > 0.0f) || !(now[i] > 0.0f)) continue;
-      const float ratio = std::clamp(before[i] / now[i], 1.0f / kMostRatio, kMostRatio);
-      float& color = denoised[3 * i + c];
-      const float as_bright = color * ratio, low = weight[i] / there[i];
-      const float high = std::min(reuse.weight[i], kMostHigh);
-      color += low * (as_bright - color);
-      if (high > 0.0f) color += high * (reuse.color[3 * i + c] - as_bright);
-      color = std::max(color, 0.0f);
-    }
-  }
 }
 
 }  // namespace gatelight::renderer
