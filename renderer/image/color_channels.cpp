@@ -7,25 +7,36 @@
 #include <span>
 
 namespace gatelight::renderer {
+namespace {
+
+std::size_t index_of(const Layer& layer, const char* name) {
+  const auto found = std::find(layer.channels.begin(), layer.channels.end(), name);
+  return static_cast<std::size_t>(found - layer.channels.begin());
+}
+
+std::optional<std::array<std::size_t, 3>> channels_named(const Layer& layer,
+                                                         const std::array<const char*, 3>& names) {
+  std::array<std::size_t, 3> index{};
+  std::transform(names.begin(), names.end(), index.begin(),
+                 [&](const char* name) { return index_of(layer, name); });
+  if (*std::max_element(index.begin(), index.end()) == layer.channels.size()) return std::nullopt;
+  return index;
+}
+
+}  // namespace
 
 std::optional<std::array<std::size_t, 3>> color_channels(const Layer& layer) {
-  const auto begin = layer.channels.begin();
-  const auto end = layer.channels.end();
-  const auto find = [&](const char* name) { return std::find(begin, end, name); };
-  const std::array rgb{find("R"), find("G"), find("B")};
-  if (std::find(rgb.begin(), rgb.end(), end) == rgb.end()) {
-    std::array<std::size_t, 3> index{};
-    std::transform(rgb.begin(), rgb.end(), index.begin(),
-                   [&](auto it) { return static_cast<std::size_t>(it - begin); });
-    return index;
-  }
+  if (const auto index = channels_named(layer, {"R", "G", "B"})) return index;
   // An incomplete colour does not count as one, and a layer with X is a position.
-  const bool others =
-      find("X") != end || std::any_of(rgb.begin(), rgb.end(), [&](auto it) { return it != end; });
-  const auto grey = find("Y");
-  if (grey == end || others) return std::nullopt;
-  const std::size_t at = static_cast<std::size_t>(grey - begin);
-  return std::array{at, at, at};
+  const auto has = [&](const char* name) { return index_of(layer, name) < layer.channels.size(); };
+  const std::size_t grey = index_of(layer, "Y");
+  if (!has("Y") || has("X") || has("R") || has("G") || has("B")) return std::nullopt;
+  return std::array{grey, grey, grey};
+}
+
+std::optional<std::array<std::size_t, 3>> vector_channels(const Layer& layer) {
+  const auto index = channels_named(layer, {"X", "Y", "Z"});
+  return index ? index : channels_named(layer, {"R", "G", "B"});
 }
 
 std::string describe_channels(const Layer& layer) {

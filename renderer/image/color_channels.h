@@ -14,6 +14,9 @@ namespace gatelight::renderer {
 /// Empty for other layers (depth, X Y Z, an incomplete colour).
 std::optional<std::array<std::size_t, 3>> color_channels(const Layer& layer);
 
+/// The indices of X, Y and Z, or of R, G and B.
+std::optional<std::array<std::size_t, 3>> vector_channels(const Layer& layer);
+
 /// Text for messages about a layer without colours: "channels A, Z, expected R, G and B, or Y".
 std::string describe_channels(const Layer& layer);
 

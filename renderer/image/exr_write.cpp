@@ -4,72 +4,18 @@
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>
-#include <OpenEXR/ImfIO.h>
 #include <OpenEXR/ImfOutputFile.h>
 #include <OpenEXR/ImfStandardAttributes.h>
 #include <OpenEXR/ImfStringAttribute.h>
-#include <OpenEXR/ImfThreading.h>
-#include <tbb/global_control.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <limits>
-#include <system_error>
 
-#include "base/half.h"
 #include "base/parallel/loops.h"
+#include "renderer/image/exr_layers.h"
+#include "renderer/image/exr_stream.h"
 
 namespace gatelight::renderer {
 namespace {
-
-/// OpenEXR goes back to fill in the table of line offsets, so the stream must seek.
-class StdioStream final : public Imf::OStream {
- public:
-  explicit StdioStream(std::FILE* stream) : Imf::OStream("stream"), stream_(stream) {}
-
-  void write(const char* data, int bytes) override {
-    if (std::fwrite(data, 1, static_cast<std::size_t>(bytes), stream_) != static_cast<std::size_t>(bytes)) {
-      fail();
-    }
-  }
-  std::uint64_t tellp() override {
-    const long position = std::ftell(stream_);
-    if (position < 0) fail();
-    return static_cast<std::uint64_t>(position);
-  }
-  /// The library finishes a file in a destructor, which hides errors.
-  void check() const {
-    if (error_ != 0) throw_error();
-  }
-  void seekp(std::uint64_t position) override {
-    if (std::fseek(stream_, static_cast<long>(position), SEEK_SET) != 0) fail();
-  }
-
- private:
-  [[noreturn]] void throw_error() const {
-    throw std::system_error(error_, std::generic_category(), "stream");
-  }
-  [[noreturn]] void fail() {
-    if (error_ == 0) error_ = errno;
-    throw_error();
-  }
-
-  std::FILE* stream_;
-  int error_ = 0;
-};
-
-/// Keeps finite radiance finite. The conversion of `half` turns values beyond its range into infinity.
-half to_half(float value) {
-  if (value > kMaxHalf && value <= std::numeric_limits<float>::max()) return half(kMaxHalf);
-  if (value < -kMaxHalf && value >= std::numeric_limits<float>::lowest()) return half(-kMaxHalf);
-  return half(value);
-}
-
-/// The address of the pixel (0, 0). It lies before the buffer when the data window starts elsewhere.
-char* origin(void* base, std::size_t pixel_bytes, std::size_t row_bytes, const Picture& picture) {
-  return static_cast<char*>(base) - picture.x0 * static_cast<std::ptrdiff_t>(pixel_bytes) -
-         picture.y0 * static_cast<std::ptrdiff_t>(row_bytes);
-}
 
 /// OpenEXR multiplies points by matrices from the left.
 Imath::M44f row_vectors(const std::array<float, 16>& columns) {
@@ -122,7 +68,7 @@ void write_exr(const Picture& picture, std::FILE* stream, bool all_float) {
       base = converted.data();
     }
     const Imf::PixelType type = as_float ? Imf::FLOAT : Imf::HALF;
-    char* first = origin(base, count * value_bytes, width * count * value_bytes, picture);
+    char* first = origin(base, count * value_bytes, width * count * value_bytes, header.dataWindow());
     for (std::size_t c = 0; c < count; ++c) {
       const std::string name = layer.name.empty() ? layer.channels[c] : layer.name + "." + layer.channels[c];
       header.channels().insert(name, Imf::Channel(type));
@@ -133,10 +79,7 @@ void write_exr(const Picture& picture, std::FILE* stream, bool all_float) {
 
   StdioStream output(stream);
   {
-    const auto threads =
-        static_cast<int>(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
-    if (threads > 1 && Imf::globalThreadCount() < threads) Imf::setGlobalThreadCount(threads);
-    Imf::OutputFile file(output, header, threads > 1 ? threads : 0);
+    Imf::OutputFile file(output, header, exr_threads());
     file.setFrameBuffer(frame);
     file.writePixels(picture.height);
   }

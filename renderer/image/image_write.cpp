@@ -52,14 +52,21 @@ std::vector<float> radiance_of(const Picture& picture) {
   return rgb;
 }
 
+void write_exr(const Picture& picture, std::FILE* stream, const ImageWriteOptions& options) {
+  if (options.edited)
+    edit_exr(picture, *options.edited, stream, options.exr_float);
+  else
+    write_exr(picture, stream, options.exr_float);
+}
+
 /// What write_exr() writes to a stream in memory.
-std::vector<std::uint8_t> exr_of(const Picture& picture, bool all_float) {
+std::vector<std::uint8_t> exr_of(const Picture& picture, const ImageWriteOptions& options) {
   char* data = nullptr;
   std::size_t size = 0;
   std::FILE* stream = ::open_memstream(&data, &size);
   if (stream == nullptr) throw std::bad_alloc();
   try {
-    write_exr(picture, stream, all_float);
+    write_exr(picture, stream, options);
   } catch (...) {
     std::fclose(stream);
     std::free(data);
@@ -140,8 +147,7 @@ std::vector<std::uint8_t> encode_image(const Picture& picture, ImageFormat forma
                                        const ImageWriteOptions& options) {
   std::vector<std::uint8_t> bytes;
   naming("a picture", [&] {
-    bytes =
-        format == ImageFormat::exr ? exr_of(picture, options.exr_float) : encode(picture, format, options);
+    bytes = format == ImageFormat::exr ? exr_of(picture, options) : encode(picture, format, options);
   });
   return bytes;
 }
@@ -153,7 +159,7 @@ void write_image(const Picture& picture, const std::filesystem::path& path,
   naming(fmt::format("'{}'", path.string()), [&] {
     const ImageFormat format = image_format(path);
     if (format == ImageFormat::exr) {
-      write_exr(picture, file.stream(), options.exr_float);
+      write_exr(picture, file.stream(), options);
     } else {
       const std::vector<std::uint8_t> bytes = encode(picture, format, options);
       file.write(bytes.data(), bytes.size());
