@@ -117,9 +117,9 @@ PicturePointer denoise(const py::object& color, const py::object& albedo, const 
                                       static_cast<std::size_t>(threads));
     tbb::task_arena arena(threads);
     renderer::Denoiser denoiser(oidn, threads, options.memory_limit_bytes);
-    const renderer::Samples samples = renderer::samples_of(data->picture);
+    const std::vector<renderer::LayersToDenoise> layers = renderer::layers_to_denoise(data->picture);
     std::optional<renderer::Picture> finished = arena.execute([&] {
-      return renderer::denoise_picture(std::move(data->picture), samples, denoiser,
+      return renderer::denoise_picture(std::move(data->picture), layers, denoiser,
                                        {.prefilter = options.denoise.prefilter},
                                        [&](double) { return !waiting.stopped(); });
     });

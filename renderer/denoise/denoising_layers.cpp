@@ -5,10 +5,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <initializer_list>
+#include <iterator>
+#include <numeric>
 
-#include "renderer/image/image_read.h"
-#include "renderer/image/short_name.h"
+#include "base/errors.h"
+#include "renderer/image/color_channels.h"
 
 namespace gatelight::renderer {
 namespace {
@@ -36,48 +37,40 @@ void each_place(int width, int height, int factor, int column, int row, Visit vi
   }
 }
 
-/// The first of the names that the picture has.
-const Layer* find_layer(const Picture& picture, std::initializer_list<const char*> names) {
-  for (const char* const name : names) {
-    for (const Layer& layer : picture.layers) {
-      if (short_name(layer.name) == name) return &layer;
-    }
-  }
-  return nullptr;
-}
-
-const Layer* named_layer(const Picture& picture, const std::string& name) {
-  if (const Layer* const layer = picture.find(name)) return layer;
+const Layer& layer_of(const Picture& picture, const std::string& name) {
+  if (const Layer* const layer = picture.find(name)) return *layer;
   throw InputError(fmt::format("has no layer '{}'", name));
 }
 
-std::vector<float> values_of(const Layer& layer, std::size_t channels) {
-  const std::size_t has = layer.channels.size();
-  // A fourth channel is alpha.
-  if (has != channels && !(channels == 3 && has == 4)) {
-    throw InputError(
-        fmt::format("has {} channels in its layer '{}', expected {}", has, layer.name, channels));
-  }
+/// Some channels of each pixel; what is not finite is 0.
+template <std::size_t channels>
+std::vector<float> values_of(const Layer& layer, const std::array<std::size_t, channels>& index) {
+  const std::size_t count = layer.channels.size(), pixels = layer.values.size() / count;
   std::vector<float> values;
-  if (has == channels) {
-    values = layer.values;
-  } else {
-    for (std::size_t i = 0; i < layer.values.size(); i += has)
-      values.insert(values.end(), &layer.values[i], &layer.values[i] + channels);
+  values.reserve(channels * pixels);
+  for (std::size_t i = 0; i < pixels; ++i) {
+    for (const std::size_t c : index) {
+      const float value = layer.values[i * count + c];
+      values.push_back(std::isfinite(value) ? value : 0.0f);
+    }
   }
-  for (float& value : values)
-    if (!std::isfinite(value)) value = 0.0f;
   return values;
 }
 
 /// A plane of samples whose layers add_denoising_layers() wrote.
-std::vector<float> join_layers(const Picture& picture, const Samples& samples, const char* what,
-                               std::size_t channels) {
+template <std::size_t channels>
+std::vector<float> join_layers(const Picture& picture, const Samples& samples, const char* what) {
   std::vector<float> plane(size(samples.width) * size(samples.height) * channels);
+  std::array<std::size_t, channels> index{};
+  std::iota(index.begin(), index.end(), std::size_t{0});
   for (int row = 0; row < samples.factor; ++row) {
     for (int column = 0; column < samples.factor; ++column) {
-      const std::string name = name_of(what, samples.factor, column, row);
-      const std::vector<float> values = values_of(*named_layer(picture, name), channels);
+      const Layer& layer = layer_of(picture, name_of(what, samples.factor, column, row));
+      if (layer.channels.size() != channels) {
+        throw InputError(fmt::format("has {} channels in its layer '{}', expected {}", layer.channels.size(),
+                                     layer.name, channels));
+      }
+      const std::vector<float> values = values_of(layer, index);
       each_place(samples.width, samples.height, samples.factor, column, row,
                  [&](std::size_t from, std::size_t to) {
                    std::copy_n(&values[from * channels], channels, &plane[to * channels]);
@@ -85,6 +78,35 @@ std::vector<float> join_layers(const Picture& picture, const Samples& samples, c
     }
   }
   return plane;
+}
+
+/// The network for clean guides needs both of them. In place of one that is missing it gets a plane without
+/// edges (README.md).
+void complete_guides(Samples& samples) {
+  if (samples.albedo.empty() == samples.normal.empty()) return;
+  if (samples.albedo.empty()) samples.albedo.assign(samples.normal.size(), 1.0f);
+  if (!samples.normal.empty()) return;
+  samples.normal.assign(samples.albedo.size(), 0.0f);
+  for (std::size_t i = 2; i < samples.normal.size(); i += 3) samples.normal[i] = 1.0f;
+}
+
+/// The size of the samples over that of the picture; 0: there are none.
+int factor_of(const Picture& picture) {
+  for (int factor = 1; factor <= kMostFactor; ++factor) {
+    if (picture.find(name_of(kColor, factor, 0, 0))) return factor;
+  }
+  return 0;
+}
+
+Samples own_samples(const Picture& picture, const LayersToDenoise& layers) {
+  const int factor = factor_of(picture);
+  Samples samples{factor, factor * picture.width, factor * picture.height};
+  samples.color = join_layers<3>(picture, samples, kColor);
+  if (layers.albedo) samples.albedo = join_layers<3>(picture, samples, kAlbedo);
+  if (layers.normal) samples.normal = join_layers<3>(picture, samples, kNormal);
+  if (picture.find(name_of(kAlpha, factor, 0, 0))) samples.alpha = join_layers<1>(picture, samples, kAlpha);
+  complete_guides(samples);
+  return samples;
 }
 
 ReadRows rows_of(const std::vector<float>& plane, int width, std::size_t channels = 3) {
@@ -122,7 +144,8 @@ void add_denoising_layers(Picture& picture, const NoisyPicture& samples, int fac
 }
 
 bool is_denoising_layer(const std::string& name) {
-  return name.starts_with("denoising-");
+  constexpr const char* kOwn[] = {kColor, kAlbedo, kNormal, kAlpha};
+  return std::any_of(std::begin(kOwn), std::end(kOwn), [&](const char* own) { return name.starts_with(own); });
 }
 
 NoisyPicture Samples::noisy() const {
@@ -134,33 +157,31 @@ NoisyPicture Samples::noisy() const {
           rows_of(alpha, width, 1)};
 }
 
-Samples samples_of(const Picture& picture, const LayerNames& names) {
-  const bool named = !(names.color.empty() && names.albedo.empty() && names.normal.empty());
-  for (int factor = 1; factor <= kMostFactor && !named; ++factor) {
-    if (!picture.find(name_of(kColor, factor, 0, 0))) continue;
-    Samples samples{factor, factor * picture.width, factor * picture.height};
-    samples.color = join_layers(picture, samples, kColor, 3);
-    samples.albedo = join_layers(picture, samples, kAlbedo, 3);
-    samples.normal = join_layers(picture, samples, kNormal, 3);
-    if (picture.find(name_of(kAlpha, factor, 0, 0))) samples.alpha = join_layers(picture, samples, kAlpha, 1);
-    return samples;
+bool has_denoising_layers(const Picture& picture) {
+  return factor_of(picture) > 0;
+}
+
+LayersToDenoise own_layers(const Picture& picture) {
+  LayersToDenoise layers{.own = true, .color = kColor, .result = picture.layers.front().name};
+  layers.albedo = kAlbedo;
+  layers.normal = kNormal;
+  return layers;
+}
+
+Samples samples_of(const Picture& picture, const LayersToDenoise& layers) {
+  if (layers.own) return own_samples(picture, layers);
+  Samples samples{1, picture.width, picture.height};
+  const Layer& color = layer_of(picture, layers.color);
+  samples.color = values_of(color, color_channels(color).value());
+  if (layers.albedo) {
+    const Layer& albedo = layer_of(picture, *layers.albedo);
+    samples.albedo = values_of(albedo, color_channels(albedo).value());
   }
-  const auto find = [&](const std::string& name, std::initializer_list<const char*> usual) {
-    return name.empty() ? find_layer(picture, usual) : named_layer(picture, name);
-  };
-  const Layer* color = find(names.color, {"noisy image", "raw", "combined"});
-  if (!color) color = &picture.layers.front();
-  const Layer* const albedo = find(names.albedo, {"denoising albedo", "albedo"});
-  const Layer* const normal = find(names.normal, {"denoising normal", "normal", "n"});
-  if (!albedo != !normal) {
-    throw InputError(fmt::format("has the layer '{}' but no {}, expected both or none",
-                                 (albedo ? albedo : normal)->name, albedo ? "normals" : "albedo"));
+  if (layers.normal) {
+    const Layer& normal = layer_of(picture, *layers.normal);
+    samples.normal = values_of(normal, vector_channels(normal).value());
   }
-  Samples samples{1, picture.width, picture.height, values_of(*color, 3)};
-  if (albedo) {
-    samples.albedo = values_of(*albedo, 3);
-    samples.normal = values_of(*normal, 3);
-  }
+  complete_guides(samples);
   return samples;
 }
 

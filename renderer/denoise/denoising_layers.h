@@ -1,11 +1,11 @@
 #pragma once
 // Writes and reads a denoiser's inputs as layers of a picture.
 
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "renderer/denoise/denoise.h"
+#include "renderer/denoise/layers_to_denoise.h"
 #include "renderer/image/picture.h"
 
 namespace gatelight::renderer {
@@ -30,18 +30,15 @@ struct Samples {
   NoisyPicture noisy() const;
 };
 
-/// Names of layers in files of other programs; empty: the usual ones.
-struct LayerNames {
-  std::string color;
-  std::string albedo;
-  std::string normal;
-};
+/// Whether the picture has the layers of add_denoising_layers().
+bool has_denoising_layers(const Picture& picture);
 
-/// Reads the layers of add_denoising_layers(), or where there are none, those that other renderers write for
-/// a denoiser: colour "Noisy Image" (Blender), "raw", "Combined" or the beauty; albedo "Denoising Albedo" or
-/// "albedo"; normal "Denoising Normal", "normal" or "N". Case and all before the last dot are ignored. Values
-/// that are not finite become 0. Throws InputError, without the file's name, for a named layer that is
-/// missing, one without three channels, and one guide without the other.
-Samples samples_of(const Picture& picture, const LayerNames& names = {});
+/// These layers. The beauty becomes the denoised picture.
+LayersToDenoise own_layers(const Picture& picture);
+
+/// Reads layers that are chosen. Values that are not finite become 0. In place of a single guide that is
+/// missing stands a white albedo, or a normal that is the same everywhere. Throws InputError, without the
+/// file's name, for a layer of add_denoising_layers() that is missing or has other channels.
+Samples samples_of(const Picture& picture, const LayersToDenoise& layers);
 
 }  // namespace gatelight::renderer

@@ -1,12 +1,15 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 #include <string>
 #include <vector>
 
 #include "renderer/image/image_read.h"
+#include "renderer/image/image_write.h"
 #include "tests/support/denoiser.h"
 #include "tests/support/folder_test.h"
+#include "tests/support/noisy_image.h"
 #include "tests/support/process.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/tiny_scene.h"
@@ -108,6 +111,181 @@ TEST_F(DenoiseCommand, TakesLayersOfOtherNames) {
   EXPECT_EQ(beauty(path("usual.exr")), beauty(path("named.exr")));
   expect_failure(run_gatelight_inside({"denoise", input, "-o", path("o.exr"), "--normal-layer", "N"}), 2,
                  {"a.exr", "'N'"});
+}
+
+/// A picture of another program: noisy_image() in layers of these names and channels.
+struct NamedLayers {
+  std::string color, albedo, normal;
+  std::vector<std::string> channels = {"R", "G", "B"};
+};
+
+constexpr int kWidth = 48, kHeight = 40;
+
+renderer::Picture picture_of(const renderer::NoisyImage& image, const NamedLayers& names) {
+  renderer::Picture picture{.width = image.width, .height = image.height};
+  const auto add = [&](const std::string& name, const std::vector<float>& values,
+                       std::vector<std::string> channels) {
+    if (name != "none") picture.layers.push_back({name, std::move(channels), values, true});
+  };
+  add(names.color, image.color, names.channels);
+  add(names.albedo, image.albedo, names.channels);
+  add(names.normal, image.normal, {"X", "Y", "Z"});
+  return picture;
+}
+
+/// How far a layer is from the picture without noise.
+double error_of(const std::string& file, const std::string& layer) {
+  const renderer::Picture picture = renderer::read_image(file);
+  return testing::deviation(picture.find(layer)->values, testing::clean_image(kWidth, kHeight).color);
+}
+
+TEST_F(DenoiseCommand, ReplacesTheLayerThatIsNamedAndNoOther) {
+  GATELIGHT_NEEDS_DENOISER();
+  const renderer::NoisyImage image = testing::noisy_image(kWidth, kHeight);
+  write_image(picture_of(image, {"image", "albedo", "sh_normal"}), path("a.exr"), {.exr_float = true});
+  const Output output = run_gatelight_inside({"denoise", path("a.exr"), "-o", path("b.exr"), "--color-layer",
+                                              "image", "--normal-layer", "sh_normal"});
+  ASSERT_EQ(output.exit_code, 0) << output.err;
+  EXPECT_NE(output.err.find("'image', with 'albedo' and 'sh_normal'"), std::string::npos) << output.err;
+  const renderer::Picture picture = renderer::read_image(path("b.exr"));
+  EXPECT_EQ(picture.find("albedo")->values, image.albedo);
+  EXPECT_EQ(picture.find("sh_normal")->values, image.normal);
+  EXPECT_LT(error_of(path("b.exr"), "image"), 0.2 * error_of(path("a.exr"), "image"));
+  ASSERT_EQ(run_gatelight_inside({"denoise", path("a.exr"), "-o", path("c.exr"), "--quiet"}).exit_code, 0);
+  EXPECT_EQ(read_file(path("c.exr")), read_file(path("b.exr"))) << "the usual names are the same layers";
+}
+
+TEST_F(DenoiseCommand, FindsChannelsByTheirNames) {
+  GATELIGHT_NEEDS_DENOISER();
+  const renderer::NoisyImage image = testing::noisy_image(kWidth, kHeight);
+  write_image(picture_of(image, {"", "albedo", "N"}), path("upper.exr"), {.exr_float = true});
+  write_image(picture_of(image, {"", "albedo", "N", {"red", "green", "blue"}}), path("words.exr"),
+              {.exr_float = true});
+  write_image(picture_of(image, {"", "albedo", "N", {"r", "g", "b"}}), path("lower.exr"),
+              {.exr_float = true});
+  for (const std::string name : {"upper", "words", "lower"}) {
+    ASSERT_EQ(run_gatelight_inside({"denoise", path(name + ".exr"), "-o", path(name + ".png"), "-o",
+                                    path(name + "-out.exr"), "--quiet"})
+                  .exit_code,
+              0);
+    EXPECT_EQ(read_file(path(name + ".png")), read_file(path("upper.png"))) << name;
+    EXPECT_EQ(beauty(path(name + "-out.exr")), beauty(path("upper-out.exr"))) << name;
+  }
+  EXPECT_LT(error_of(path("lower-out.exr"), ""), 0.2 * error_of(path("lower.exr"), ""));
+}
+
+TEST_F(DenoiseCommand, OneGuideIsBetterThanNone) {
+  GATELIGHT_NEEDS_DENOISER();
+  const renderer::NoisyImage image = testing::noisy_image(kWidth, kHeight);
+  const auto error = [&](const NamedLayers& names, std::vector<std::string> flags = {}) {
+    write_image(picture_of(image, names), path("a.exr"), {.exr_float = true});
+    flags.insert(flags.begin(), {"denoise", path("a.exr"), "-o", path("b.exr"), "--quiet"});
+    EXPECT_EQ(run_gatelight_inside(flags).exit_code, 0);
+    return error_of(path("b.exr"), names.color);
+  };
+  const double none = error({"V.Combined", "none", "none"});
+  EXPECT_LT(error({"V.Combined", "V.Denoising Albedo", "none"}), none);
+  EXPECT_LT(error({"V.Combined", "none", "V.Normal"}), none);
+  EXPECT_EQ(
+      error({"V.Combined", "V.Albedo", "V.Normal"}, {"--albedo-layer", "none", "--normal-layer", "none"}),
+      none);
+}
+
+TEST_F(DenoiseCommand, DenoisesGreyPicturesAndSeveralViewLayers) {
+  GATELIGHT_NEEDS_DENOISER();
+  const renderer::NoisyImage image = testing::noisy_image(kWidth, kHeight),
+                             other = testing::noisy_image(kWidth, kHeight, 2);
+  renderer::Picture grey{.width = kWidth, .height = kHeight};
+  grey.layers = {{"", {"A", "Y"}, {}, true}};
+  for (std::size_t i = 0; i < image.color.size(); i += 3)
+    grey.layers[0].values.insert(grey.layers[0].values.end(), {0.5f, image.color[i]});
+  write_image(grey, path("grey.exr"), {.exr_float = true});
+  ASSERT_EQ(run_gatelight_inside({"denoise", path("grey.exr"), "-o", path("b.exr"), "--quiet"}).exit_code, 0);
+  const renderer::Layer read = renderer::read_image(path("b.exr")).layers[0];
+  ASSERT_EQ(read.channels, (std::vector<std::string>{"A", "Y"}));
+  const std::vector<float> clean = testing::clean_image(kWidth, kHeight).color;
+  double before = 0.0, after = 0.0;
+  for (std::size_t i = 0; i < image.color.size() / 3; ++i) {
+    EXPECT_EQ(read.values[2 * i], 0.5f);
+    before += std::abs(image.color[3 * i] - clean[3 * i]);
+    after += std::abs(read.values[2 * i + 1] - clean[3 * i]);
+  }
+  EXPECT_LT(after, 0.3 * before);
+
+  renderer::Picture two = picture_of(image, {"V.Combined", "V.Denoising Albedo", "none"});
+  for (renderer::Layer& layer : picture_of(other, {"O.Combined", "none", "O.Normal"}).layers)
+    two.layers.push_back(layer);
+  two.layers.push_back({"Composite.Combined", {"R", "G", "B"}, image.color, true});
+  write_image(two, path("two.exr"), {.exr_float = true});
+  const Output output = run_gatelight_inside({"denoise", path("two.exr"), "-o", path("c.exr")});
+  EXPECT_NE(output.err.find("left      'Composite.Combined'"), std::string::npos) << output.err;
+  for (const char* const layer : {"V.Combined", "O.Combined"})
+    EXPECT_LT(error_of(path("c.exr"), layer), 0.2 * error_of(path("two.exr"), layer)) << layer;
+  EXPECT_EQ(renderer::read_image(path("c.exr")).find("Composite.Combined")->values, image.color);
+}
+
+/// The mean square of what changes from frame to frame of a picture that stays.
+double flicker(const std::string& folder, int frames) {
+  double sum = 0.0;
+  std::vector<float> before;
+  for (int frame = 1; frame <= frames; ++frame) {
+    std::vector<float> now =
+        renderer::read_image(folder + "/out-" + std::to_string(frame) + ".exr").layers[0].values;
+    if (!before.empty()) sum += std::pow(testing::deviation(before, now), 2);
+    before = std::move(now);
+  }
+  return sum / (frames - 1);
+}
+
+TEST_F(DenoiseCommand, FramesHoldStillWhereSurfacesDo) {
+  GATELIGHT_NEEDS_DENOISER();
+  constexpr int kFrames = 5;
+  const auto write = [&](bool motion) {
+    for (int frame = 1; frame <= kFrames; ++frame) {
+      renderer::Picture picture = picture_of(
+          testing::noisy_image(kWidth, kHeight, 10u + static_cast<unsigned>(frame)), {"", "albedo", "N"});
+      if (motion)
+        picture.layers.push_back({"motion", {"X", "Y"}, std::vector<float>(2 * kWidth * kHeight), true});
+      write_image(picture, path("in-" + std::to_string(frame) + ".exr"), {.exr_float = true});
+    }
+  };
+  const auto denoised = [&](std::vector<std::string> flags) {
+    flags.insert(flags.begin(), {"denoise", path("in-%d.exr"), "-o", path("out-%d.exr"), "--quiet"});
+    const Output output = run_gatelight_inside(flags);
+    EXPECT_EQ(output.exit_code, 0) << output.err;
+    return flicker(path(""), kFrames);
+  };
+  write(true);
+  const double still = denoised({}), alone = denoised({"--temporal", "off"});
+  EXPECT_LT(still, 0.5 * alone);
+  write(false);
+  EXPECT_EQ(denoised({}), alone) << "nothing tells where surfaces were";
+}
+
+TEST_F(DenoiseCommand, FramesAreThoseThatExistOrThatAreNamed) {
+  GATELIGHT_NEEDS_DENOISER();
+  for (const char* const name : {"in-0001.exr", "in-0003.exr", "in-12.exr", "on-0005.exr", "in-0007.png"})
+    write_image(picture_of(testing::noisy_image(kWidth, kHeight), {"", "none", "none"}), path(name));
+  const Output all = run_gatelight_inside(
+      {"denoise", path("in-%04d.exr"), "-o", path("out-%04d.exr"), "-o", path("out-%04d.png")});
+  ASSERT_EQ(all.exit_code, 0) << all.err;
+  EXPECT_NE(all.err.find("2 frames"), std::string::npos) << all.err;
+  for (const char* const name : {"out-0001.exr", "out-0003.exr", "out-0001.png", "out-0003.png"})
+    EXPECT_TRUE(std::filesystem::exists(path(name))) << name;
+  ASSERT_EQ(run_gatelight_inside({"denoise", path("in-%04d.exr"), "-o", path("n-%04d.exr"), "--frames", "3"})
+                .exit_code,
+            0);
+  EXPECT_FALSE(std::filesystem::exists(path("n-0001.exr")));
+  EXPECT_EQ(read_file(path("n-0003.exr")), read_file(path("out-0003.exr")));
+  expect_failure(
+      run_gatelight_inside({"denoise", path("in-%04d.exr"), "-o", path("o-%04d.exr"), "--frames", "1:3"}), 2,
+      {"in-0002.exr"});
+  expect_failure(run_gatelight_inside({"denoise", path("no-%04d.exr"), "-o", path("o-%04d.exr")}), 2,
+                 {"no-%04d.exr"});
+  expect_failure(run_gatelight_inside({"denoise", path("in-%04d.exr"), "-o", path("o.exr")}), 1,
+                 {"o.exr", "%04d"});
+  expect_failure(run_gatelight_inside({"denoise", path("in-%04d.exr"), "-o", path("in-%04d.exr")}), 1,
+                 {"INPUT"});
 }
 
 TEST_F(DenoiseCommand, PutsAnotherBackgroundBehindThePicture) {

@@ -5,7 +5,10 @@
 #include <string_view>
 #include <vector>
 
+#include "renderer/denoise/denoising_layers.h"
+#include "renderer/driver/denoise_picture.h"
 #include "renderer/image/image_read.h"
+#include "renderer/image/image_write.h"
 #include "renderer/light/environment.h"
 #include "scene/gltf.h"
 #include "tests/fuzz/input_file.h"
@@ -17,6 +20,29 @@ namespace gatelight::fuzz {
 namespace {
 
 constexpr std::size_t kLargestEnvironment = 1 << 16;  ///< pixels: building more takes long
+
+/// What `denoise` does with an EXR but for the filter.
+void choose_and_edit(const renderer::Picture& picture, const std::filesystem::path& path) {
+  const std::vector<renderer::LayersToDenoise> layers = renderer::layers_to_denoise(picture);
+  const std::size_t pixels =
+      static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height);
+  for (const renderer::LayersToDenoise& some : layers) {
+    const renderer::Samples samples = renderer::samples_of(picture, some);
+    const std::size_t values = 3 * pixels * static_cast<std::size_t>(samples.factor * samples.factor);
+    if (samples.color.size() != values || samples.albedo.size() != samples.normal.size())
+      throw Violation("samples of another size than the picture");
+  }
+  renderer::Picture denoised = picture;
+  std::erase_if(denoised.layers, [&](const auto& layer) {
+    return layers.front().own && renderer::is_denoising_layer(layer.name);
+  });
+  try {
+    renderer::encode_image(denoised, renderer::ImageFormat::exr,
+                           {.edited = renderer::edited_exr(path, denoised, layers)});
+  } catch (const OutputError& error) {
+    check_line(error.what());
+  }
+}
 
 void read_picture(const std::filesystem::path& path) {
   try {
@@ -30,6 +56,7 @@ void read_picture(const std::filesystem::path& path) {
         throw Violation("a layer of another size than the picture");
     }
     if (pixels > kLargestEnvironment) return;
+    if (path.extension() == ".exr") choose_and_edit(picture, path);
     const renderer::Environment environment({.file = path.string()});
     const Color mean = environment.mean();
     const renderer::EnvironmentSample sample = environment.sample({0.3f, 0.7f});

@@ -53,7 +53,8 @@ TEST(DenoisingLayers, ComeBackToTheBitAtAnySize) {
       EXPECT_EQ(layer.values.size(), 24 * layer.channels.size()) << "the size of the picture";
       EXPECT_TRUE(layer.full_precision && is_denoising_layer(layer.name)) << layer.name;
     }
-    const Samples read = samples_of(picture);
+    ASSERT_TRUE(has_denoising_layers(picture));
+    const Samples read = samples_of(picture, own_layers(picture));
     EXPECT_EQ(read.factor, factor);
     EXPECT_EQ(read.width, image.width);
     EXPECT_EQ(read.color, image.color);
@@ -64,54 +65,37 @@ TEST(DenoisingLayers, ComeBackToTheBitAtAnySize) {
   }
 }
 
-TEST(DenoisingLayers, AreFoundByTheNamesOfOtherRenderers) {
-  const std::vector<std::vector<const char*>> names = {
-      {"ViewLayer.Combined", "ViewLayer.Denoising Albedo", "ViewLayer.Denoising Normal"},
-      {"", "albedo", "normal"},
-      {"", "Albedo", "N"}};
-  for (const auto& [beauty, albedo, normal] :
-       {std::tuple(names[0][0], names[0][1], names[0][2]), std::tuple(names[1][0], names[1][1], names[1][2]),
-        std::tuple(names[2][0], names[2][1], names[2][2])}) {
-    Picture picture = picture_with({beauty, albedo, normal, "depth"});
-    const Samples samples = samples_of(picture);
-    EXPECT_EQ(samples.color[0], 1.0f) << albedo;
-    EXPECT_EQ(samples.albedo[0], 2.0f) << albedo;
-    EXPECT_EQ(samples.normal[0], 3.0f) << normal;
-  }
-  // The samples take precedence over a beauty that is denoised already.
-  Picture blender = picture_with({"V.Combined", "V.Noisy Image", "V.Denoising Normal", "V.Denoising Albedo"});
-  EXPECT_EQ(samples_of(blender).color[0], 2.0f);
-  Picture own = picture_with({"", "raw"});
-  EXPECT_EQ(samples_of(own).color[0], 2.0f);
-  EXPECT_TRUE(samples_of(own).albedo.empty());
-}
-
-TEST(DenoisingLayers, CanBeNamed) {
-  Picture picture = picture_with({"", "a", "b", "albedo", "normal"});
-  const Samples samples = samples_of(picture, {.color = "a", .albedo = "b", .normal = "normal"});
-  EXPECT_EQ(samples.color[0], 2.0f);
-  EXPECT_EQ(samples.albedo[0], 3.0f);
-  EXPECT_EQ(samples.normal[0], 5.0f);
-  Picture other = picture_with({"", "a"});
-  expect_refusal<InputError>([&] { samples_of(other, {.normal = "b"}); }, {"'b'"});
-}
-
-TEST(DenoisingLayers, ASingleGuideAndOtherChannelsAreRefused) {
-  Picture one = picture_with({"", "albedo"});
-  expect_refusal<InputError>([&] { samples_of(one); }, {"albedo", "normals"});
-  Picture grey = picture_with({"", "albedo", "normal"});
-  grey.layers[1].channels = {"Y"};
-  grey.layers[1].values.resize(2);
-  expect_refusal<InputError>([&] { samples_of(grey); }, {"albedo", "1", "3"});
-  Picture incomplete = picture_with({"", "denoising-color"});
-  expect_refusal<InputError>([&] { samples_of(incomplete); }, {"denoising-albedo"});
-}
-
 TEST(DenoisingLayers, NonFiniteValuesAreBlackAndAlphaIsLeftOut) {
   Picture picture = picture_with({""});
   picture.layers[0].channels = {"R", "G", "B", "A"};
   picture.layers[0].values = {1, 2, 3, 0.5f, std::nanf(""), std::numeric_limits<float>::infinity(), 6, 1};
-  EXPECT_EQ(samples_of(picture).color, (std::vector<float>{1, 2, 3, 0, 0, 6}));
+  EXPECT_EQ(samples_of(picture, {}).color, (std::vector<float>{1, 2, 3, 0, 0, 6}));
+}
+
+TEST(DenoisingLayers, AreFoundByTheNamesOfTheirChannels) {
+  Picture picture{.width = 1, .height = 1};
+  picture.layers = {{.channels = {"A", "B", "Z", "G", "R"}, .values = {9, 3, 8, 2, 1}},
+                    {.name = "N", .channels = {"Z", "X", "Y"}, .values = {6, 4, 5}},
+                    {.name = "grey", .channels = {"A", "Y"}, .values = {9, 7}}};
+  const Samples samples = samples_of(picture, {.albedo = "grey", .normal = "N"});
+  EXPECT_EQ(samples.color, (std::vector<float>{1, 2, 3}));
+  EXPECT_EQ(samples.albedo, (std::vector<float>{7, 7, 7}));
+  EXPECT_EQ(samples.normal, (std::vector<float>{4, 5, 6}));
+}
+
+TEST(DenoisingLayers, APlaneStandsForAGuideThatIsMissing) {
+  const Picture picture = picture_with({"", "albedo", "normal"});
+  const Samples normals = samples_of(picture, {.normal = "normal"});
+  EXPECT_EQ(normals.albedo, std::vector<float>(6, 1.0f));
+  EXPECT_EQ(normals.normal, std::vector<float>(6, 3.0f));
+  const Samples albedo = samples_of(picture, {.albedo = "albedo"});
+  EXPECT_EQ(albedo.normal, (std::vector<float>{0, 0, 1, 0, 0, 1}));
+  EXPECT_TRUE(samples_of(picture, {}).normal.empty());
+}
+
+TEST(DenoisingLayers, OfWhichOneIsMissingAreRefused) {
+  const Picture incomplete = picture_with({"", "denoising-color"});
+  expect_refusal<InputError>([&] { samples_of(incomplete, own_layers(incomplete)); }, {"denoising-albedo"});
 }
 
 }  // namespace

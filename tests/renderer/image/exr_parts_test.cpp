@@ -75,7 +75,7 @@ TEST(ExrParts, AreLayersWithTheNamesOfTheirChannelsOrTheirOwn) {
   ASSERT_TRUE(picture.find("Denoising Normal")) << "channels without a layer take the name of the part";
   EXPECT_EQ(picture.find("View.Depth")->values, std::vector<float>(6, 1.0f));
   // The guides of other renderers are found in parts too.
-  const Samples samples = samples_of(picture, {});
+  const Samples samples = samples_of(picture, layers_to_denoise(picture).front());
   ASSERT_EQ(samples.albedo.size(), 18u);
   EXPECT_EQ(samples.color[0], 2.0f);
   EXPECT_EQ(samples.albedo[4], 11.0f);
@@ -99,7 +99,7 @@ TEST(ExrParts, PutTheBeautyPartFirst) {
       folder,
       {{"albedo", {"R", "G", "B"}, 1.0f}, {"Beauty", {"R", "G", "B"}, 5.0f}, {"N", {"X", "Y", "Z"}, 9.0f}}));
   EXPECT_EQ(picture.layers[0].name, "Beauty");
-  const Samples samples = samples_of(picture, {});
+  const Samples samples = samples_of(picture, layers_to_denoise(picture).front());
   EXPECT_EQ(samples.color[0], 5.0f);
   EXPECT_EQ(samples.albedo[0], 1.0f);
   EXPECT_EQ(samples.normal[0], 9.0f);

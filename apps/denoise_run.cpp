@@ -1,0 +1,316 @@
+#include "apps/denoise_run.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <tbb/global_control.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <cctype>
+#include <exception>
+#include <filesystem>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "apps/reports/overflow_warning.h"
+#include "apps/reports/recipe.h"
+#include "apps/settings/file_names.h"
+#include "apps/settings/flags.h"
+#include "apps/settings/frame_range.h"
+#include "apps/settings/option_table.h"
+#include "apps/settings/picture_options.h"
+#include "apps/settings/picture_output.h"
+#include "apps/terminal/errors.h"
+#include "apps/terminal/log.h"
+#include "apps/terminal/signals.h"
+#include "apps/terminal/terminal.h"
+#include "apps/terminal/version.h"
+#include "base/clock.h"
+#include "base/platform/threads.h"
+#include "renderer/denoise/denoising_layers.h"
+#include "renderer/driver/denoise_picture.h"
+#include "renderer/image/auto_exposure.h"
+#include "renderer/image/image_format.h"
+#include "renderer/image/image_read.h"
+
+namespace gatelight::apps {
+namespace {
+
+using nlohmann::ordered_json;
+using renderer::LayersToDenoise;
+
+/// Options that the picture's recipe sets, unless a flag does.
+constexpr const char* kOfRecipe[] = {"prefilter", "filter", "filter-width", "background", "temporal"};
+
+/// Text of a recipe's value, in the syntax that the option reads.
+std::string text_of_value(const ordered_json& value) {
+  if (value.is_string()) return value.get<std::string>();
+  if (!value.is_array()) return value.dump();
+  std::string text;
+  for (const ordered_json& part : value) text += (text.empty() ? "" : ",") + part.dump();
+  return text;
+}
+
+/// Sets the options of finishing the picture from its recipe, where no flag sets them.
+void apply_recipe(const renderer::Picture& picture, const std::set<std::string>& given,
+                  DenoiseSettings& settings) {
+  const ordered_json recipe = recipe_options(picture);
+  if (!recipe.is_object()) return;
+  const auto read = [&](Option& option) {
+    if (given.contains(option.flag()) || !recipe.contains(option.name)) return;
+    try {
+      option.read(text_of_value(recipe[option.name]));
+    } catch (const BadOption& error) {
+      throw InputError(fmt::format("the recipe of '{}': {}", settings.input, error.what()));
+    }
+  };
+  for (Option& option : picture_options(settings.render)) {
+    if (std::find(std::begin(kOfRecipe), std::end(kOfRecipe), option.name) != std::end(kOfRecipe))
+      read(option);
+  }
+  std::vector<Option> files;
+  OptionGroup group{files, ""};
+  std::vector<std::string> outputs;
+  add_picture_files(group, outputs, settings.image, settings.exposure);
+  for (Option& option : files) {
+    if (option.name == "exposure" || option.name == "tonemap" || option.name == "white-balance") read(option);
+  }
+}
+
+/// "'ViewLayer.Noisy Image' in 'ViewLayer.Combined', with 'ViewLayer.Denoising Normal'"
+std::string text_of_layers(const LayersToDenoise& layers) {
+  const auto name = [](const std::string& layer) {
+    return layer.empty() ? "the picture" : "'" + layer + "'";
+  };
+  std::string text = name(layers.color);
+  if (layers.color != layers.result) text += " in " + name(layers.result);
+  if (!layers.has_guides()) return text + ", without guides";
+  text += ", with " + name(layers.albedo ? *layers.albedo : *layers.normal);
+  if (layers.albedo && layers.normal) text += " and " + name(*layers.normal);
+  return text;
+}
+
+/// What was denoised, of a picture whose layers are of other programs.
+std::string text_of_choice(const renderer::Picture& picture, const std::vector<LayersToDenoise>& layers) {
+  std::string text;
+  for (const LayersToDenoise& some : layers) {
+    if (!some.own) text += fmt::format("denoised  {}\n", text_of_layers(some));
+  }
+  const std::vector<std::string> left = renderer::colors_left(picture, layers);
+  if (!text.empty() && !left.empty())
+    text += fmt::format("left      '{}', without guides or not named\n", fmt::join(left, "', '"));
+  return text;
+}
+
+class DenoiseRun {
+ public:
+  DenoiseRun(const DenoiseSettings& settings, const std::set<std::string>& given)
+      : whole_(settings),
+        given_(given),
+        progress_(settings.quiet ? ProgressMode::none : settings.progress, 1.0) {}
+
+  int run() {
+    check();
+    install_signal_handlers();
+    const std::string place = oidn_place(whole_.render.denoise.library);
+    const renderer::OidnLibrary& oidn = renderer::load_oidn(place);
+    const int threads = whole_.render.threads > 0 ? whole_.render.threads : available_threads();
+    require_threads(threads);
+    const tbb::global_control control(tbb::global_control::max_allowed_parallelism,
+                                      static_cast<std::size_t>(threads));
+    tbb::task_arena arena(threads);
+    renderer::Denoiser denoiser(oidn, threads, whole_.render.memory_limit_bytes);
+    name_ = fmt::format("Open Image Denoise {}", oidn.version);
+    if (!frames_.empty()) choose_exposure();
+    const std::size_t count = std::max<std::size_t>(frames_.size(), 1);
+    for (std::size_t i = 0; i < count; ++i) {
+      if (!frames_.empty()) progress_.begin_frame(frames_[i], i, count);
+      if (!finish(settings_of(i), denoiser, arena)) {
+        progress_.clear();
+        const std::string done =
+            frames_.empty() ? "nothing was written" : fmt::format("{} of {} frames were written", i, count);
+        print_notice(fmt::format("stopped by signal {}; {}", stop_signal(), done),
+                     kSignalBase + stop_signal());
+        return kSignalBase + stop_signal();
+      }
+    }
+    progress_.clear();
+    report();
+    return kDone;
+  }
+
+ private:
+  void check() {
+    if (renderer::image_format(whole_.input) != renderer::ImageFormat::exr)
+      throw UsageError(fmt::format("denoise: '{}' is not an .exr file", whole_.input));
+    if (whole_.frames || has_frame_place(whole_.input)) find_frames();
+    check_stdout(whole_.outputs);
+    FileNames names;
+    for (std::size_t i = 0; i < std::max<std::size_t>(frames_.size(), 1); ++i)
+      names.read("INPUT", settings_of(i).input);
+    for (const std::string& output : whole_.outputs) {
+      if (frames_.empty())
+        refuse_frame_place("--output", output);
+      else
+        require_frame_place("--output", output);
+    }
+    for (std::size_t i = 0; i < std::max<std::size_t>(frames_.size(), 1); ++i) {
+      for (const std::string& output : settings_of(i).outputs) {
+        names.write("--output", output);
+        if (i == 0) check_picture_output(output);
+      }
+    }
+    check_display(whole_.image.display);
+  }
+
+  /// The frames, of which each has its file.
+  void find_frames() {
+    require_frame_place("INPUT", whole_.input);
+    frames_ = whole_.frames ? *whole_.frames : existing_frames(whole_.input);
+    if (frames_.empty())
+      throw InputError(fmt::format("cannot read '{}': there is no such file", whole_.input));
+    for (const int frame : frames_) {
+      const std::string file = name_of_frame(whole_.input, frame);
+      if (std::error_code error; !std::filesystem::exists(file, error))
+        throw InputError(fmt::format("cannot read '{}': there is no such file", file));
+    }
+  }
+
+  /// The settings of the i-th frame, or of the picture.
+  DenoiseSettings settings_of(std::size_t i) const {
+    DenoiseSettings settings = whole_;
+    if (frames_.empty()) return settings;
+    settings.input = name_of_frame(whole_.input, frames_[i]);
+    for (std::string& output : settings.outputs) output = name_of_frame(output, frames_[i]);
+    return settings;
+  }
+
+  /// One exposure for all frames: the median of that of a few, without black ones.
+  void choose_exposure() {
+    constexpr std::size_t kMeasured = 5;
+    const bool shown = std::any_of(
+        whole_.outputs.begin(), whole_.outputs.end(),
+        [](const std::string& output) { return output_format(output) != renderer::ImageFormat::exr; });
+    if (whole_.exposure || !shown) return;
+    std::vector<float> stops;
+    for (std::size_t i = 0; i < std::min(kMeasured, frames_.size()); ++i) {
+      DenoiseSettings settings = settings_of(i * frames_.size() / std::min(kMeasured, frames_.size()));
+      const renderer::Picture picture = read(settings);
+      apply_recipe(picture, given_, settings);
+      if (settings.exposure) {
+        whole_.exposure = settings.exposure;
+        return;
+      }
+      const float suitable = renderer::auto_exposure(picture);
+      if (suitable != 0.0f) stops.push_back(suitable);  // 0: black, or of no consequence
+    }
+    std::sort(stops.begin(), stops.end());
+    whole_.exposure = stops.empty() ? 0.0f : stops[stops.size() / 2];
+  }
+
+  renderer::Picture read(const DenoiseSettings& settings) const {
+    renderer::Picture picture = renderer::read_image(settings.input);
+    const bool has_samples = picture.find("raw") || renderer::has_denoising_layers(picture);
+    if (picture.metadata.contains("denoiser") && !has_samples && settings.layers.color.empty())
+      throw InputError(fmt::format("'{}' is denoised already, expected the layers of --aov denoising or raw",
+                                   settings.input));
+    return picture;
+  }
+
+  /// Denoises and writes one picture. False where a signal stopped it.
+  bool finish(DenoiseSettings settings, renderer::Denoiser& denoiser, tbb::task_arena& arena) {
+    progress_.phase("load");
+    renderer::Picture picture = read(settings);
+    apply_recipe(picture, given_, settings);
+    const renderer::RenderOptions& o = settings.render;
+    try {
+      const std::vector<LayersToDenoise> layers = renderer::layers_to_denoise(picture, settings.layers);
+      choice_ = text_of_choice(picture, layers);
+      std::optional<renderer::Picture> denoised = arena.execute([&] {
+        return denoise_picture(std::move(picture), layers, denoiser,
+                               {o.denoise.prefilter, o.filter, o.filter_width, o.background}, progress(),
+                               !frames_.empty() && o.denoise.temporal ? &earlier_ : nullptr);
+      });
+      if (!denoised) return false;
+      denoised->metadata["denoiser"] = name_;
+      settings.image.edited = edited_exr(settings.input, *denoised, layers);
+      arena.execute([&] { write(*denoised, settings); });
+    } catch (const InputError& error) {
+      throw InputError(fmt::format("'{}' {}", settings.input, error.what()));
+    }
+    return true;
+  }
+
+  renderer::DenoiseProgress progress() {
+    return [this](double done) {
+      progress_.update(
+          {.phase = renderer::Phase::denoise, .fraction = done, .seconds = seconds_since(start_)});
+      return stop_signal() == 0;
+    };
+  }
+
+  void write(const renderer::Picture& picture, DenoiseSettings& settings) const {
+    settings.image.display.exposure =
+        settings.exposure ? *settings.exposure : renderer::auto_exposure(picture);
+    if (const std::string text = overflow_warning(picture, settings.outputs, settings.image);
+        !text.empty() && !settings.quiet)
+      log_warning(text);
+    std::exception_ptr first_error;
+    for (const std::string& output : settings.outputs) {
+      try {
+        write_picture(picture, output, settings.image);
+      } catch (...) {
+        if (!first_error) first_error = std::current_exception();
+      }
+    }
+    if (first_error) std::rethrow_exception(first_error);
+  }
+
+  void report() const {
+    if (whole_.quiet) return;
+    const std::string frames = frames_.empty() ? "" : fmt::format(", {} frames", frames_.size());
+    print_status(fmt::format("{}written   {}{}\nseconds   {:.2f}, by {}\n", choice_,
+                             fmt::join(whole_.outputs, ", "), frames, seconds_since(start_), name_));
+  }
+
+  DenoiseSettings whole_;
+  std::set<std::string> given_;
+  std::vector<int> frames_;  ///< empty: a single picture
+  std::string name_, choice_;
+  renderer::EarlierFrame earlier_;
+  Clock::time_point start_ = Clock::now();
+  ProgressReporter progress_;
+};
+
+}  // namespace
+
+int denoise(const DenoiseSettings& settings, const std::set<std::string>& given) {
+  return DenoiseRun(settings, given).run();
+}
+
+std::vector<int> existing_frames(const std::string& name) {
+  namespace fs = std::filesystem;
+  std::set<int> frames;
+  std::error_code error;
+  const fs::path folder = fs::path(name).parent_path();
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder.empty() ? "." : folder, error)) {
+    const std::string file = entry.path().filename().string();
+    const auto is_digit = [](unsigned char c) { return std::isdigit(c) != 0; };
+    for (auto at = file.begin(); at != file.end();) {
+      at = std::find_if(at, file.end(), is_digit);
+      const auto end = std::find_if_not(at, file.end(), is_digit);
+      constexpr std::ptrdiff_t kMostDigits = 8;
+      if (at != end && end - at <= kMostDigits) {
+        for (const int sign : {1, -1}) {
+          const int frame = sign * std::stoi(std::string(at, end));
+          if (fs::path(name_of_frame(name, frame)).filename() == file) frames.insert(frame);
+        }
+      }
+      at = end;
+    }
+  }
+  return {frames.begin(), frames.end()};
+}
+
+}  // namespace gatelight::apps
