@@ -186,7 +186,7 @@ Option preset_option(std::optional<CachePreset>& preset) {
 
 void add_picture_files(OptionGroup& group, std::vector<std::string>& outputs,
                        renderer::ImageWriteOptions& image, std::optional<float>& stops) {
-  auto& [exr_float, bits, display] = image;
+  auto& [exr_float, bits, display, edited] = image;  // `edited` is no option
   auto& [exposure, white_balance, tonemap, ocio] = display;  // `stops` sets the exposure
   auto& [ocio_config, ocio_display, ocio_view] = ocio;
   Option& output = group.add(common(not_in_sweep(any_words(
