@@ -129,10 +129,11 @@ void RenderRun::note_part(const scene::Scene& scene, const std::vector<int>& fra
                      (frames.size() < 2 || common_step(frames) == 1);
   if (whole || last == 0 || (!cached && !carried)) return;
   note("part",
-       fmt::format("of the film, frames 0 to {}: {}{}{} make its frames differ a little from those of a "
-                   "run of all; --integrator path --temporal off does not",
-                   last, cached ? "a kept cache" : "", cached && carried ? " and " : "",
-                   carried ? "carried light" : ""));
+       fmt::format(
+           "of the film, frames 0 to {}: its frames differ a little from those of a run of all, by {}{}{}; "
+           "--integrator path --temporal off keeps them the same",
+           last, cached ? "a kept cache" : "", cached && carried ? " and " : "",
+           carried ? "carried light" : ""));
 }
 
 std::string RenderRun::state_before() {

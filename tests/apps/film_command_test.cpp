@@ -88,7 +88,8 @@ TEST_F(Film, OfWhichAPartIsRenderedSaysWhatDiffers) {
     const std::size_t at = text.find("part ");
     return at == std::string::npos ? "" : text.substr(at, text.find('\n', at) - at);
   };
-  const std::vector<std::string> cached = {"--integrator", "nrc", "--train-steps", "1"};
+  const std::vector<std::string> cached = {"--preset",      "standard", "--integrator", "nrc",
+                                           "--train-steps", "16",       "--denoiser",   "none"};
   const auto with = [&](std::vector<std::string> more) {
     more.insert(more.begin(), cached.begin(), cached.end());
     return more;

@@ -154,10 +154,19 @@ TEST_F(Frames, AreShownWithOneExposure) {
 
 TEST_F(Frames, ThatAreThereStayAsTheyAre) {
   const auto run = [&](std::vector<std::string> more) {
-    const std::vector<std::string> words = {"--integrator",          "path", "--temporal",    "off", "-o",
-                                            path("shot_%02d/f.exr"), "-o",   path("f-%d.png")};
-    more.insert(more.end(), words.begin(), words.end());
-    return render(more);
+    const std::vector<std::string> words = {"render",
+                                            GATELIGHT_SOURCE_DIR "/data/moving-room.glb",
+                                            "--size",
+                                            "40x24",
+                                            "--spp",
+                                            "1",
+                                            "--reproducible",
+                                            "-o",
+                                            path("shot_%02d/f.exr"),
+                                            "-o",
+                                            path("f-%d.png")};
+    more.insert(more.begin(), words.begin(), words.end());
+    return run_gatelight(more);
   };
   const Output all = run({"--frames", "1,3-4"});
   ASSERT_EQ(all.exit_code, 0) << all.err;
