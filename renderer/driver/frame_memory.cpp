@@ -91,7 +91,7 @@ Reuse FrameMemory::reuse(const PreparedPicture& picture, const Film& film) {
   const PixelRect& rect = film.rect();
   VisiblePoints points =
       trace_visible_points(*picture.world, picture.camera, rect, history ? &history->view : nullptr);
-  std::vector<float> probes;
+  std::vector<Color> probes;
   if (picture.scene.motion.any()) probes = probe_light(*picture.world, points.now);
   return reuse_samples(film, std::move(points), std::move(probes), history.get());
 }

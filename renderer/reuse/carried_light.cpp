@@ -17,12 +17,8 @@ constexpr int kAround = 4;
 constexpr float kStandardErrors = 2.0f, kAllowed = 0.05f;
 /// Pixels around, in each direction, whose samples decide how bright the carried light is.
 constexpr int kAroundMatch = 24;
-/// The carried light is mixed in by its full share in means over so many pixels around, in each direction; by
-/// at most this share in what is finer.
-constexpr int kAroundLow = 4;
+/// Finer light than kAroundLow is mixed in by at most this share.
 constexpr float kMostHigh = 0.5f;
-/// Most change of these means.
-constexpr float kMostRatio = 2.0f;
 
 template <class Function>
 void for_each_pixel(std::size_t pixels, const Function& function) {

@@ -11,8 +11,8 @@ namespace gatelight::renderer {
 /// What a pixel may take over.
 struct Carried {
   Color color{0.0f, 0.0f, 0.0f};
-  float samples = 0.0f;  ///< 0: nothing
-  float probe = 0.0f;    ///< of the place from which it comes
+  float samples = 0.0f;           ///< 0: nothing
+  Color probe{0.0f, 0.0f, 0.0f};  ///< of the place from which it comes
 };
 
 /// The samples of a frame, by pixel, in rows from the top.
@@ -35,6 +35,11 @@ struct CarriedLight {
 /// Most samples that a pixel takes over, in those that the frame itself has: more hold light longer still,
 /// but follow its changes later.
 inline constexpr float kMostEarlier = 12.0f;
+
+/// The carried light is mixed in by its full share in means over so many pixels around, in each direction.
+inline constexpr int kAroundLow = 4;
+/// Most change of these means.
+inline constexpr float kMostRatio = 2.0f;
 
 /// Luminance of the light on a surface, without the surface's colour.
 float light_of(const float* color, const float* albedo);

@@ -19,9 +19,12 @@ constexpr float kMostAcross = 1.0f, kMostAlong = 3.0f;
 /// relative change, and another from the second on.
 constexpr int kAroundProbe = 2;
 constexpr float kUnchanged = 0.03f, kChanged = 0.2f;
+/// Old light that is wrong by a change c counts for at most so many of the frame's samples, over c: then the
+/// error of the mean stays below this, however many changes add up. From the second on nothing is carried.
+constexpr float kMostError = 0.01f, kOther = 0.1f;
 
 bool same_surface(const VisiblePoint& there, const VisiblePoint& now, const EarlierPoint& earlier) {
-  if (!there.hit || there.hit.instance != now.hit.instance) return false;
+  if (!there.hit || there.hit.instance != now.hit.instance || there.layers != now.layers) return false;
   if (there.normal.dot(earlier.normal) < kLeastCosine) return false;
   const Vec3 apart = there.position - earlier.position;
   const float width = std::max(there.width, now.width);
@@ -39,7 +42,7 @@ float same_gloss(const VisiblePoint& now, const EarlierPoint& earlier) {
 
 class Carrier {
  public:
-  Carrier(const Film& film, const VisiblePoints& points, const std::vector<float>& probes,
+  Carrier(const Film& film, const VisiblePoints& points, const std::vector<Color>& probes,
           const History* history)
       : rect_(film.rect()),
         points_(points),
@@ -65,6 +68,7 @@ class Carrier {
     box_filter(edges_, rect_.width(), rect_.height(), kAroundEdge);
     if (history_) {
       carry();
+      if (!points_.changes.empty()) compare_surfaces();
       if (!probes_.empty() && !history_->probes.empty()) compare_probes();
       compare_samples(frame_, carried_);
       match_brightness(frame_, carried_);
@@ -131,20 +135,47 @@ class Carrier {
            (i >= width && differs(i - width)) || (i + width < points_.now.size() && differs(i + width));
   }
 
-  /// Takes less over where the light of the probes has changed.
+  /// Takes so little over that the mean stays right, where the surface is another one.
+  void compare_surfaces() {
+    std::vector<float> change = points_.changes;
+    box_filter(change, rect_.width(), rect_.height(), kAroundLow);
+    for_each_pixel([&](std::size_t i) {
+      if (!(change[i] > 0.0f)) return;
+      const float most = change[i] < kOther ? frame_.count[i] * kMostError / change[i] : 0.0f;
+      carried_[i].samples = std::min(carried_[i].samples, most);
+    });
+  }
+
+  /// Takes less over where the light of the probes has changed, and as bright as they are now.
   void compare_probes() {
     const std::size_t pixels = carried_.size();
     std::vector<float> difference(pixels), light(pixels);
+    std::array<std::vector<float>, 3> now, before;
+    for (std::size_t c = 0; c < 3; ++c) {
+      now[c].resize(pixels);
+      before[c].resize(pixels);
+    }
     for_each_pixel([&](std::size_t i) {
       if (!(carried_[i].samples > 0.0f)) return;
-      difference[i] = std::abs(probes_[i] - carried_[i].probe);
-      light[i] = std::max(probes_[i], carried_[i].probe);
+      const Color &probe = probes_[i], &carried = carried_[i].probe;
+      difference[i] = luminance((probe - carried).abs());
+      light[i] = luminance(probe.max(carried));
+      for (std::size_t c = 0; c < 3; ++c) {
+        now[c][i] = probe[static_cast<Eigen::Index>(c)];
+        before[c][i] = carried[static_cast<Eigen::Index>(c)];
+      }
     });
-    for (std::vector<float>* plane : {&difference, &light})
+    for (std::vector<float>* plane :
+         {&difference, &light, &now[0], &now[1], &now[2], &before[0], &before[1], &before[2]})
       box_filter(*plane, rect_.width(), rect_.height(), kAroundProbe);
     for_each_pixel([&](std::size_t i) {
       const float change = light[i] > 0.0f ? difference[i] / light[i] : 0.0f;
       carried_[i].samples *= std::clamp((kChanged - change) / (kChanged - kUnchanged), 0.0f, 1.0f);
+      for (std::size_t c = 0; c < 3; ++c) {
+        if (!(before[c][i] > 0.0f)) continue;
+        carried_[i].color[static_cast<Eigen::Index>(c)] *=
+            std::clamp(now[c][i] / before[c][i], 1.0f / kMostRatio, kMostRatio);
+      }
     });
   }
 
@@ -168,7 +199,7 @@ class Carrier {
 
   PixelRect rect_;
   const VisiblePoints& points_;
-  const std::vector<float>& probes_;
+  const std::vector<Color>& probes_;
   const History* history_;  ///< null: there is none
   FrameSamples frame_;
   std::vector<float> edges_;
@@ -178,7 +209,7 @@ class Carrier {
 
 }  // namespace
 
-Reuse reuse_samples(const Film& film, VisiblePoints points, std::vector<float> probes,
+Reuse reuse_samples(const Film& film, VisiblePoints points, std::vector<Color> probes,
                     const History* history) {
   Reuse reuse{Carrier(film, points, probes, history).run()};
   if (!history) reuse.color.clear();

@@ -14,6 +14,6 @@ namespace gatelight::renderer {
 /// same a frame later, and nearly the same at points nearby (after Schied, Peters, Dachsbacher 2018,
 /// "Gradient estimation for real-time adaptive temporal filtering"). 0 without a surface. Works in the
 /// caller's arena.
-std::vector<float> probe_light(const World& world, const std::vector<VisiblePoint>& points);
+std::vector<Color> probe_light(const World& world, const std::vector<VisiblePoint>& points);
 
 }  // namespace gatelight::renderer

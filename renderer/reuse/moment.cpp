@@ -3,6 +3,7 @@
 namespace gatelight::renderer {
 
 Moment::Moment(const scene::Scene& scene) {
+  if (scene.motion.materials) materials_ = scene.materials;
   if (!scene.motion.instances) return;
   for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
     const scene::Instance& instance = scene.instances[i];

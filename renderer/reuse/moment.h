@@ -1,5 +1,5 @@
 #pragma once
-// Where the things of a scene are at one time.
+// Where the things of a scene are at one time, and of what material.
 
 #include <array>
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace gatelight::renderer {
 
-/// What moves, as it is now: it outlives the scene's next times.
+/// What moves or changes, as it is now: it outlives the scene's next times.
 class Moment {
  public:
   Moment() = default;
@@ -22,6 +22,12 @@ class Moment {
   std::optional<std::array<Vec3, 3>> triangle(const scene::Scene& scene, std::uint32_t instance,
                                               std::uint32_t primitive) const;
 
+  /// Whether materials change with the time.
+  bool has_materials() const { return !materials_.empty(); }
+  const scene::Material& material(const scene::Scene& scene, std::uint32_t instance) const {
+    return materials_[static_cast<std::size_t>(scene.mesh_of(scene.instances[instance]).material)];
+  }
+
  private:
   struct Place {
     Affine transform;
@@ -29,6 +35,7 @@ class Moment {
   };
   std::map<std::uint32_t, Place> moving_;       ///< by instance
   std::map<int, std::vector<Vec3>> deforming_;  ///< positions by mesh
+  std::vector<scene::Material> materials_;      ///< of the scene; empty where they do not change
 };
 
 }  // namespace gatelight::renderer

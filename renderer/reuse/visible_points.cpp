@@ -5,6 +5,7 @@
 
 #include "base/parallel/loops.h"
 #include "renderer/film/tiles.h"
+#include "renderer/reuse/surface_change.h"
 #include "renderer/transport/guide_surface.h"
 
 namespace gatelight::renderer {
@@ -12,6 +13,10 @@ namespace {
 
 /// Mirrors and panes that are followed.
 constexpr int kMostPassed = 8;
+/// The same with blended surfaces, where anything moves.
+constexpr int kMostMet = 32;
+/// What has less weight in a pixel's light is not looked for.
+constexpr float kLeastWeight = 0.01f;
 
 Affine reflection(const Vec3& point, const Vec3& normal) {
   Affine mirror = Affine::Identity();
@@ -36,16 +41,6 @@ Vec3 mirrored(const Vec3& direction, const Vec3& normal) {
   return direction - 2.0f * normal.dot(direction) * normal;
 }
 
-/// How much of the light depends on the view, roughly: that of metals, coats and smooth dielectrics.
-void set_gloss(const SurfaceMaterial& m, VisiblePoint& point) {
-  constexpr float kSmooth = 0.4f, kOfLobe = 0.7f;
-  const bool coated = m.clearcoat > 0.1f;
-  const float roughness = coated ? std::min(m.roughness, m.clearcoat_roughness) : m.roughness;
-  const float dielectric = coated || roughness < kSmooth ? 1.0f : 0.0f;
-  point.glossy = std::max({m.metallic, m.transmission, dielectric});
-  point.lobe = std::max(kOfLobe * roughness * roughness, 0.01f);
-}
-
 /// The walk of one pixel's ray.
 struct Walker {
   std::size_t pixel;
@@ -54,17 +49,33 @@ struct Walker {
   float travelled = 0.0f;
   Affine image = Affine::Identity();  ///< from a point to its image in the mirrors, a frame ago
   bool had_image = true;
+  std::uint32_t seed = 0;  ///< decides which blended surface the point is on
+  float weight = 1.0f;     ///< in the pixel's light, of what the ray meets from here on
+  std::uint32_t layers = 0;
+  bool arrived = false;  ///< the point is found; what follows is behind it, or mirrored by it
 };
 
 class Tracer {
  public:
   Tracer(const World& world, const EarlierView* earlier, VisiblePoints& points)
-      : world_(world), earlier_(earlier), points_(points) {}
+      : world_(world), earlier_(earlier), points_(points) {
+    finds_changes_ = earlier && earlier->moment.has_materials();
+    meets_all_ = world.scene.motion.any();
+    if (finds_changes_) points.changes.resize(points.now.size());
+  }
+
+  int most_passed() const { return meets_all_ ? kMostMet : kMostPassed; }
+
+  Walker start(std::size_t pixel, const CameraRay& from) const {
+    Walker walker{.pixel = pixel, .ray = from.ray, .cone = from.cone, .seed = from.ray.seed};
+    if (meets_all_) walker.ray.seed = kMeetsAll;
+    return walker;
+  }
 
   /// Returns whether the ray goes on.
   bool arrive(Walker& walker, const Hit& hit) {
     if (!hit) {
-      if (earlier_ && walker.had_image) note_background(walker);
+      if (earlier_ && walker.had_image && !walker.arrived) note_background(walker);
       return false;
     }
     const Vec3 direction = walker.ray.direction;
@@ -72,25 +83,84 @@ class Tracer {
     const float width = walker.cone.width + walker.cone.spread * walker.travelled;
     const Surface surface = world_.surfaces.at(hit, direction, width, 0.5f);
     const SurfaceMaterial& m = surface.material;
+    const float alpha = alpha_of(hit, world_.surfaces.material(hit.instance));
+    if (finds_changes_) note_change(walker, hit, surface, width, alpha);
+    if (alpha < 1.0f && (walker.arrived || !world_.coverage.is_there(hit, walker.seed)))
+      return go_behind(walker, hit, surface, alpha);
     if (is_mirror_or_clear(m))
       return m.transmission > 0.5f ? pass(walker, hit, surface) : reflect(walker, hit, surface);
-    const std::optional<Plane> plane =
-        plane_of(scene::world_triangle(world_.scene, instance(hit), hit.primitive), hit);
-    if (!plane) return false;
-    VisiblePoint& point = points_.now[walker.pixel];
-    const bool turned = plane->normal.dot(direction) > 0.0f;
-    const Vec3 normal = turned ? Vec3(-plane->normal) : plane->normal;
-    point = {hit, plane->point, normal, width, mirrored(direction, normal)};
-    set_gloss(m, point);
-    if (earlier_ && walker.had_image) note_earlier(walker, hit, turned);
-    return false;
+    if (walker.arrived || !note_point(walker, hit, surface, width) || !finds_changes_) return false;
+    walker.arrived = true;
+    return alpha < 1.0f ? go_behind(walker, hit, surface, alpha) : look_at_reflection(walker, surface, width);
   }
 
  private:
   const scene::Instance& instance(const Hit& hit) const { return world_.scene.instances[hit.instance]; }
 
-  static bool pass(Walker& walker, const Hit&, const Surface& surface) {
+  float alpha_of(const Hit& hit, const scene::Material& m) const {
+    if (!meets_all_ || m.alpha_mode != scene::AlphaMode::blend) return 1.0f;
+    return std::clamp(world_.coverage.alpha(hit, m), 0.0f, 1.0f);
+  }
+
+  /// Adds the change of the surface since the earlier time.
+  void note_change(const Walker& walker, const Hit& hit, const Surface& surface, float width, float alpha) {
+    const scene::Material& now = world_.surfaces.material(hit.instance);
+    const scene::Material& before = earlier_->moment.material(world_.scene, hit.instance);
+    const Surface earlier = world_.surfaces.at(hit, walker.ray.direction, width, 0.5f, before);
+    points_.changes[walker.pixel] +=
+        walker.weight * (std::abs(alpha_of(hit, before) - alpha) +
+                         alpha * (surface_change(surface, earlier) + inside_change(now, before)));
+  }
+
+  static void note_layer(Walker& walker, const Hit& hit) {
+    walker.layers = hash(walker.layers ^ hash(hit.instance + 1));
+  }
+
+  /// Goes on behind a blended surface.
+  static bool go_behind(Walker& walker, const Hit& hit, const Surface& surface, float alpha) {
+    walker.ray.origin = surface.spawn(walker.ray.direction);
+    walker.weight *= 1.0f - alpha;
+    if (!walker.arrived && alpha > kLeastWeight) note_layer(walker, hit);
+    return !walker.arrived || walker.weight > kLeastWeight;
+  }
+
+  /// Goes on to what the surface of the point mirrors.
+  static bool look_at_reflection(Walker& walker, const Surface& surface, float width) {
+    const Gloss gloss = gloss_of(surface.material);
+    const Vec3 out = mirrored(walker.ray.direction, surface.shading_normal).normalized();
+    if (!(out.dot(surface.geometric_normal) > 0.0f)) return false;
+    walker.ray.origin = surface.spawn(out);
+    walker.ray.direction = out;
+    walker.cone = {width, walker.cone.spread + gloss.lobe};
+    walker.travelled = 0.0f;
+    walker.weight *= gloss.share;
+    return walker.weight > kLeastWeight;
+  }
+
+  /// Stores the point; false where its triangle has no area.
+  bool note_point(const Walker& walker, const Hit& hit, const Surface& surface, float width) {
+    const std::optional<Plane> plane =
+        plane_of(scene::world_triangle(world_.scene, instance(hit), hit.primitive), hit);
+    if (!plane) return false;
+    const Vec3& direction = walker.ray.direction;
+    const bool turned = plane->normal.dot(direction) > 0.0f;
+    const Vec3 normal = turned ? Vec3(-plane->normal) : plane->normal;
+    const Gloss gloss = gloss_of(surface.material);
+    points_.now[walker.pixel] = {.hit = hit,
+                                 .layers = walker.layers,
+                                 .position = plane->point,
+                                 .normal = normal,
+                                 .width = width,
+                                 .reflected = mirrored(direction, normal),
+                                 .glossy = gloss.share,
+                                 .lobe = gloss.lobe};
+    if (earlier_ && walker.had_image) note_earlier(walker, hit, turned);
+    return true;
+  }
+
+  static bool pass(Walker& walker, const Hit& hit, const Surface& surface) {
     if (!surface.material.thin_walled) return false;
+    note_layer(walker, hit);
     walker.ray.origin = surface.spawn(walker.ray.direction);
     return true;
   }
@@ -99,12 +169,13 @@ class Tracer {
     const Vec3 n = surface.shading_normal, d = walker.ray.direction;
     const Vec3 out = (d - 2.0f * n.dot(d) * n).normalized();
     if (!(out.dot(surface.geometric_normal) > 0.0f)) return false;
-    if (earlier_ && walker.had_image) {
+    if (earlier_ && walker.had_image && !walker.arrived) {
       const auto corners = earlier_->moment.triangle(world_.scene, hit.instance, hit.primitive);
       const auto plane = corners ? plane_of(*corners, hit) : std::nullopt;
       walker.had_image = plane.has_value();
       if (plane) walker.image = walker.image * reflection(plane->point, plane->normal);
     }
+    note_layer(walker, hit);
     walker.ray.origin = surface.spawn(out);
     walker.ray.direction = out;
     return true;
@@ -134,6 +205,8 @@ class Tracer {
   const World& world_;
   const EarlierView* earlier_;
   VisiblePoints& points_;
+  bool finds_changes_ = false;
+  bool meets_all_ = false;  ///< also blended surfaces that the point is behind
 };
 
 }  // namespace
@@ -152,11 +225,11 @@ VisiblePoints trace_visible_points(const World& world, const Camera& camera, con
     std::vector<Walker> walkers;
     for (const Pixel& p : of_tile) {
       const CameraRay from = camera.ray(static_cast<float>(p.x) + 0.5f, static_cast<float>(p.y) + 0.5f);
-      walkers.push_back({.pixel = rect.index(p.x, p.y), .ray = from.ray, .cone = from.cone});
+      walkers.push_back(tracer.start(rect.index(p.x, p.y), from));
     }
     std::vector<Ray> rays;
     std::vector<Hit> hits;
-    for (int passed = 0; !walkers.empty() && passed <= kMostPassed; ++passed) {
+    for (int passed = 0; !walkers.empty() && passed <= tracer.most_passed(); ++passed) {
       rays.clear();
       for (const Walker& walker : walkers) rays.push_back(walker.ray);
       hits.assign(rays.size(), {});

@@ -1,6 +1,7 @@
 #pragma once
 // What the middle of each pixel shows, behind mirrors and clear panes, and where it was a frame ago.
 
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -13,6 +14,7 @@ namespace gatelight::renderer {
 
 struct VisiblePoint {
   Hit hit;  ///< of the surface; without one the pixel shows the sky, or what no reuse can follow
+  std::uint32_t layers = 0;  ///< the same for the same surfaces before it: mirrors, panes, and blended ones
   Vec3 position = Vec3::Zero();   ///< world
   Vec3 normal = Vec3::Zero();     ///< unit, of the triangle, on the side of the viewer
   float width = 0.0f;             ///< of a pixel there, metres
@@ -38,6 +40,10 @@ struct EarlierView {
 struct VisiblePoints {
   std::vector<VisiblePoint> now;                     ///< by pixel, in rows from the top
   std::vector<std::optional<EarlierPoint>> earlier;  ///< empty without an earlier view
+  /// 1 float a pixel: how far what it shows is of another material than at the earlier time
+  /// (surface_change.h), with what lies before that point, and what it mirrors. Empty where materials do not
+  /// change.
+  std::vector<float> changes;
 };
 
 /// Follows mirrors by the law of reflection, with the image behind a mirror where its plane was, and passes

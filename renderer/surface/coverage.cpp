@@ -56,16 +56,15 @@ Coverage::Coverage(const scene::Scene& scene, const Textures& textures, const Me
   }
 }
 
-float Coverage::alpha(const Hit& hit) const {
-  const scene::Instance& instance = scene_.instances[hit.instance];
-  const scene::Material& m = scene_.material_of(instance);
-  const FinestLevel read(textures_, scene_.mesh_of(instance), hit);
+float Coverage::alpha(const Hit& hit, const scene::Material& m) const {
+  const FinestLevel read(textures_, scene_.mesh_of(scene_.instances[hit.instance]), hit);
   return m.base_alpha * read(m.base_color_texture, Encoding::srgb).w() * read.vertex_color().w();
 }
 
 bool Coverage::is_there(const Hit& hit, std::uint32_t seed) const {
   const scene::Material& m = scene_.material_of(scene_.instances[hit.instance]);
-  const float a = alpha(hit);
+  if (seed == kMeetsAll && m.alpha_mode == scene::AlphaMode::blend) return true;
+  const float a = alpha(hit, m);
   if (m.alpha_mode == scene::AlphaMode::mask) return a >= m.alpha_cutoff;
   const std::uint32_t surface = hash(hit.primitive ^ hash(hit.instance + 0x9e3779b9u));
   return alpha_number(seed, surface) < a;

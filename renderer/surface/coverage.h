@@ -46,6 +46,8 @@ class Coverage {
   /// alpha_number() of the seed, the instance and the primitive. So surfaces are independent of each other
   /// and of the order in which they are hit.
   bool is_there(const Hit& hit, std::uint32_t seed) const;
+  /// The alpha of a surface with this material.
+  float alpha(const Hit& hit, const scene::Material& material) const;
 
   /// Whether rays between rough surfaces and lights pass glass with an inside unrefracted; whether this
   /// instance is such glass.
@@ -64,8 +66,6 @@ class Coverage {
   static constexpr std::uint8_t kPane = 2;
   static constexpr std::uint8_t kUnrefractedGlass = 4;
   static constexpr std::uint8_t kCulled = 8;
-
-  float alpha(const Hit& hit) const;
 
   const scene::Scene& scene_;
   const Textures& textures_;

@@ -9,6 +9,9 @@ namespace gatelight::renderer {
 
 inline constexpr std::uint32_t kNoInstance = ~0u;
 
+/// The seed of a ray that meets all blended surfaces.
+inline constexpr std::uint32_t kMeetsAll = ~0u;
+
 struct Ray {
   Vec3 origin = Vec3::Zero();
   float t_max = kInfinity;

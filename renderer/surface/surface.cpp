@@ -302,6 +302,13 @@ Surface Surfaces::at(const Hit& hit, const Vec3& direction, float cone_width, fl
                            : at(view, hit, direction, cone_width, u_level);
 }
 
+Surface Surfaces::at(const Hit& hit, const Vec3& direction, float cone_width, float u_level,
+                     const scene::Material& material) const {
+  View view = views_[hit.instance].at(hit.time);
+  view.material = &material;
+  return at(view, hit, direction, cone_width, u_level);
+}
+
 Surface Surfaces::at(const View& view, const Hit& hit, const Vec3& direction, float cone_width,
                      float u_level) const {
   const scene::Mesh& mesh = *view.mesh;

@@ -48,6 +48,9 @@ class Surfaces {
   /// `cone_width` is the ray cone's width at the hit, in metres. `u_level` in [0, 1) chooses between mip
   /// levels.
   Surface at(const Hit& hit, const Vec3& direction, float cone_width, float u_level) const;
+  /// The same with another material in place of the instance's own.
+  Surface at(const Hit& hit, const Vec3& direction, float cone_width, float u_level,
+             const scene::Material& material) const;
 
   /// Prefetches for a batch of hits, to call some hits ahead of at(): first the indices of the triangle, then
   /// the vertices. Vertex reads are scattered, and each would stall.

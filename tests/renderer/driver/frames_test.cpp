@@ -51,11 +51,11 @@ struct LampRoom {
   SceneBuilder builder;
 };
 
-std::vector<float> values(const Picture& picture) {
+std::vector<float> light_of(const Picture& picture) {
   return picture.layers.front().values;
 }
 
-double mean(const std::vector<float>& values) {
+double mean_light(const std::vector<float>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
@@ -72,16 +72,16 @@ std::vector<std::vector<float>> frames_of(const std::vector<Lamps>& lamps, int r
       room.set(lamps[i]);
       renderer.scene_moved(options.camera);
       const Picture picture = renderer.render_frame(static_cast<int>(i), {});
-      if (mine.first()) frames.push_back(values(picture));
+      if (mine.first()) frames.push_back(light_of(picture));
     }
   });
   return frames;
 }
 
-double mean_of_paths(const Lamps& lamps) {
+double light_of_paths(const Lamps& lamps) {
   LampRoom room;
   room.set(lamps);
-  return mean(values(Renderer(room.builder.scene(), LampRoom::options(Integrator::path)).render()));
+  return mean_light(light_of(Renderer(room.builder.scene(), LampRoom::options(Integrator::path)).render()));
 }
 
 TEST(FramesOfACache, AreBlackWhereTheLampIsOff) {
@@ -90,12 +90,12 @@ TEST(FramesOfACache, AreBlackWhereTheLampIsOff) {
     EXPECT_EQ(*std::max_element(frames[dark].begin(), frames[dark].end()), 0.0f);
     EXPECT_EQ(*std::min_element(frames[dark].begin(), frames[dark].end()), 0.0f);
   }
-  const double lit = mean_of_paths({1.0f, 0.0f});
-  EXPECT_NEAR(mean(frames[0]) / lit, 1.0, 0.03);
-  EXPECT_NEAR(mean(frames[3]) / lit, 1.0, 0.03) << "the lamp is on again";
+  const double lit = light_of_paths({1.0f, 0.0f});
+  EXPECT_NEAR(mean_light(frames[0]) / lit, 1.0, 0.03);
+  EXPECT_NEAR(mean_light(frames[3]) / lit, 1.0, 0.03) << "the lamp is on again";
   LampRoom dark;
   dark.set({0.0f, 0.0f});
-  const auto alone = values(Renderer(dark.builder.scene(), LampRoom::options(Integrator::nrc)).render());
+  const auto alone = light_of(Renderer(dark.builder.scene(), LampRoom::options(Integrator::nrc)).render());
   EXPECT_EQ(*std::max_element(alone.begin(), alone.end()), 0.0f) << "a still";
 }
 
@@ -103,18 +103,18 @@ TEST(FramesOfACache, HaveTheLightOfTheLampsThatAreOn) {
   constexpr Lamps kBoth = {1.0f, 0.03f}, kDim = {0.0f, 0.03f};
   const std::vector<Lamps> lamps = {kBoth, kBoth, kDim, kDim, kBoth};
   const auto frames = frames_of(lamps, 1, 2);
-  const double both = mean_of_paths(kBoth), dim = mean_of_paths(kDim);
+  const double both = light_of_paths(kBoth), dim = light_of_paths(kDim);
   for (std::size_t i = 0; i < lamps.size(); ++i)
-    EXPECT_NEAR(mean(frames[i]) / (lamps[i] == kBoth ? both : dim), 1.0, 0.03) << "frame " << i;
+    EXPECT_NEAR(mean_light(frames[i]) / (lamps[i] == kBoth ? both : dim), 1.0, 0.03) << "frame " << i;
 }
 
 TEST(FramesOfACache, FollowALampThatIsDimmed) {
   std::vector<Lamps> lamps;
   for (int i = 0; i < 12; ++i) lamps.push_back({1.0f - static_cast<float>(i) / 12.0f, 0.0f});
   const auto frames = frames_of(lamps, 1, 2);
-  const double full = mean_of_paths(lamps.front());
+  const double full = light_of_paths(lamps.front());
   for (std::size_t i = 0; i < lamps.size(); ++i)
-    EXPECT_NEAR(mean(frames[i]) / full / static_cast<double>(lamps[i][0]), 1.0, 0.04) << "frame " << i;
+    EXPECT_NEAR(mean_light(frames[i]) / full / static_cast<double>(lamps[i][0]), 1.0, 0.04) << "frame " << i;
 }
 
 TEST(FramesOfACache, AreTheSameForAnyRanksAndThreads) {

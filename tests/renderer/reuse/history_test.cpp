@@ -47,15 +47,22 @@ struct Wall {
     h.points = trace_visible_points(*world, from, kRect, nullptr).now;
     h.color.assign(3 * kPixels, radiance);
     h.samples.assign(kPixels, samples);
-    if (probe >= 0.0f) h.probes.assign(kPixels, probe);
+    if (probe >= 0.0f) h.probes.assign(kPixels, Color::Constant(probe));
     return h;
   }
 
   Reuse reuse(const Film& film, const History& history, float probe = -1.0f) const {
-    std::vector<float> probes;
-    if (probe >= 0.0f) probes.assign(kPixels, probe);
+    std::vector<Color> probes;
+    if (probe >= 0.0f) probes.assign(kPixels, Color::Constant(probe));
     return reuse_samples(film, trace_visible_points(*world, camera, kRect, &history.view), std::move(probes),
                          &history);
+  }
+
+  /// Where each surface's material has changed so much.
+  Reuse reuse_changed(const Film& film, const History& history, float change) const {
+    VisiblePoints points = trace_visible_points(*world, camera, kRect, &history.view);
+    points.changes.assign(kPixels, change);
+    return reuse_samples(film, std::move(points), {}, &history);
   }
 
   SceneBuilder builder;
@@ -147,6 +154,55 @@ TEST(ReusedSamples, AreNotTakenFromAnotherLight) {
   EXPECT_EQ(wall.reuse(film, wall.history(wall.camera, 2.0f, 12.0f, 1.0f), 1.0f).share, 0.0)
       << "samples differ, without noise";
   EXPECT_EQ(wall.reuse(film, wall.history(wall.camera, 1.0f, 12.0f, 1.0f), 1.0f).share, 1.0);
+  History red = wall.history(wall.camera, 1.0f, 12.0f, 1.0f);
+  red.probes.assign(kPixels, Color(1.0f / luminance(Color(1, 0, 0)), 0.0f, 0.0f));
+  EXPECT_EQ(wall.reuse(film, red, 1.0f).share, 0.0) << "another hue, as bright";
+}
+
+TEST(ReusedSamples, TakeTheHueOfTheProbes) {
+  const Wall wall(matte());
+  History history = wall.history(wall.camera, 1.0f, 12.0f, 1.0f);
+  history.probes.assign(kPixels, Color(1.0f, 1.02f, 1.0f));
+  const Reuse reuse = wall.reuse(wall.film(1.0f, 0.5f, true), history, 1.0f);
+  EXPECT_EQ(reuse.share, 1.0);
+  for (std::size_t i = 0; i < kPixels; ++i) {
+    EXPECT_NEAR(reuse.color[3 * i], 1.0f, 1e-3f);
+    EXPECT_NEAR(reuse.color[3 * i + 1], 1.0f / 1.02f, 1e-3f);
+  }
+}
+
+TEST(ReusedSamples, AreNotTakenFromAnotherMaterial) {
+  const Wall wall(matte());
+  const Film film = wall.film(1.0f, 0.5f, true);
+  const History history = wall.history(wall.camera, 1.0f, 12.0f, -1.0f);
+  EXPECT_EQ(wall.reuse_changed(film, history, 0.5f).share, 0.0);
+  const Reuse little = wall.reuse_changed(film, history, 0.02f);
+  for (const float weight : little.weight) EXPECT_NEAR(weight * 0.02f, 0.01f, 0.005f);
+  for (const float weight : wall.reuse_changed(film, history, 0.0f).weight) EXPECT_NEAR(weight, 0.75f, 1e-4f);
+}
+
+TEST(ReusedSamples, BehindOtherSurfacesAreNotTaken) {
+  const Wall wall(matte());
+  History history = wall.history(wall.camera, 1.0f, 12.0f, -1.0f);
+  for (VisiblePoint& point : history.points) point.layers = 1;
+  EXPECT_EQ(wall.reuse(wall.film(1.0f, 0.5f, true), history).share, 0.0) << "a pane that is gone";
+}
+
+TEST(ReusedSamples, FollowSlowChangesThatAddUp) {
+  // The noise of the samples hides each change.
+  constexpr float kStep = 0.005f;
+  const Wall wall(matte());
+  History history = wall.history(wall.camera, 1.0f, 12.0f, -1.0f);
+  float light = 1.0f;
+  for (int frame = 0; frame < 30; ++frame) {
+    light *= 1.0f + kStep;
+    const Reuse reuse = wall.reuse_changed(wall.film(light, 0.5f, true), history, kStep);
+    EXPECT_EQ(reuse.share, 1.0);
+    history.color.assign(3 * kPixels, light);
+    mix_light(reuse, kRect, history.color);
+    history.samples = reuse.samples;
+    for (const float color : history.color) ASSERT_NEAR(color / light, 1.0f, 0.011f) << frame;
+  }
 }
 
 TEST(ReusedSamples, OfMetalsNeedTheSameReflection) {

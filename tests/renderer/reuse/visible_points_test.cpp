@@ -114,5 +114,83 @@ TEST(VisiblePoints, InAMirrorAreWhereTheImageWas) {
   EXPECT_NEAR(points.earlier[middle]->pixel.x() - (kViewWidth / 2 + 0.5f), -1.91f, 0.05f);
 }
 
+/// A wall behind a half-transparent pane on the left, and beside a mirror on the right that shows it. Its
+/// materials change with the time.
+struct ChangingWall {
+  ChangingWall() {
+    scene::Scene& scene = builder.scene();
+    wall = builder.material(SceneBuilder::lambert(Color::Constant(0.5f)));
+    scene::Material pane = SceneBuilder::lambert(Color::Constant(0.8f));
+    pane.alpha_mode = scene::AlphaMode::blend;
+    pane.base_alpha = 0.5f;
+    veil = builder.material(pane);
+    scene::Material mirror;
+    mirror.roughness = 0.0f;
+    builder.quad(wall, Vec3(-9, -9, -4), Vec3(18, 0, 0), Vec3(0, 18, 0));
+    builder.quad(veil, Vec3(-3, -3, 0), Vec3(2, 0, 0), Vec3(0, 6, 0));
+    builder.quad(builder.material(mirror), Vec3(2, -3, 2), Vec3(0, 0, -4), Vec3(0, 6, 0));
+    scene.motion.materials = true;
+    before = scene.materials;
+  }
+
+  /// The changes since `before` by pixel, in the middle row.
+  std::vector<float> changes() {
+    scene::Scene& scene = builder.scene();
+    std::swap(scene.materials, before);
+    const EarlierView view{Moment(scene), camera};
+    std::swap(scene.materials, before);
+    const World world(scene);
+    const VisiblePoints points = trace_visible_points(world, camera, kViewRect, &view);
+    const auto row = points.changes.begin() + kViewWidth * (kViewHeight / 2);
+    return {row, row + kViewWidth};
+  }
+  scene::Material& material(int i) { return builder.scene().materials[static_cast<std::size_t>(i)]; }
+
+  SceneBuilder builder;
+  std::vector<scene::Material> before;
+  int wall = 0, veil = 0;
+  Camera camera{view_from(Vec3(0, 0, 4), Vec3::Zero()), kViewWidth, kViewHeight};
+};
+
+constexpr std::size_t kLeft = 4, kMiddle = kViewWidth / 2, kRight = kViewWidth - 5;
+
+TEST(VisiblePoints, OfTheSameMaterialHaveNotChanged) {
+  for (const float change : ChangingWall().changes()) EXPECT_EQ(change, 0.0f);
+  SceneBuilder still = moving_quad(Affine::Identity());
+  const World world(still.scene());
+  const Camera camera(still.scene().cameras[0], kViewWidth, kViewHeight);
+  const EarlierView view{Moment(still.scene()), camera};
+  EXPECT_TRUE(trace_visible_points(world, camera, kViewRect, &view).changes.empty());
+}
+
+TEST(VisiblePoints, TellTheChangeOfWhatThePixelShows) {
+  ChangingWall colored;
+  colored.material(colored.wall).base_color = Color(0.5f, 0.4f, 0.5f);
+  const std::vector<float> color = colored.changes();
+  EXPECT_NEAR(color[kMiddle], 0.2f, 1e-5f);
+  EXPECT_NEAR(color[kLeft], 0.1f, 1e-5f) << "behind a pane of alpha 0.5";
+  EXPECT_NEAR(color[kRight], 0.2f, 1e-5f) << "in a mirror";
+
+  ChangingWall faded;
+  faded.material(faded.veil).base_alpha = 0.4f;
+  const std::vector<float> alpha = faded.changes();
+  EXPECT_EQ(alpha[kMiddle], 0.0f);
+  EXPECT_NEAR(alpha[kLeft], 0.1f, 1e-5f);
+
+  ChangingWall clear;
+  clear.material(clear.veil).base_alpha = 0.0f;
+  EXPECT_NEAR(clear.changes()[kLeft], 0.5f, 1e-5f) << "also the last of it";
+
+  const auto change_of = [](auto&& change) {
+    ChangingWall changing;
+    change(changing.material(changing.wall));
+    return changing.changes()[kMiddle];
+  };
+  EXPECT_EQ(change_of([](scene::Material& m) { m.emission = Color(0.1f, 0.0f, 0.0f); }), 1.0f);
+  EXPECT_NEAR(change_of([](scene::Material& m) { m.roughness = 0.9f; }), 0.0f, 1e-5f) << "it is matte";
+  EXPECT_NEAR(change_of([](scene::Material& m) { m.metallic = 0.1f; }), 0.21f, 0.02f);
+  EXPECT_EQ(change_of([](scene::Material& m) { m.unlit = true; }), 1.0f);
+}
+
 }  // namespace
 }  // namespace gatelight::renderer

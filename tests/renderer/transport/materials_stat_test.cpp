@@ -25,7 +25,7 @@ using testing::SceneBuilder;
 constexpr int kBallSize = 34;
 constexpr float kPixelsPerRadius = 14.0f;
 
-struct Case {
+struct FurnaceMaterial {
   std::string name;
   std::function<void(Material&)> make;
 };
@@ -37,8 +37,8 @@ Material white() {
   return m;
 }
 
-std::vector<Case> cases() {
-  std::vector<Case> all;
+std::vector<FurnaceMaterial> cases() {
+  std::vector<FurnaceMaterial> all;
   for (int percent : {0, 15, 45, 100}) {
     const float roughness = 0.01f * static_cast<float>(percent);
     const std::string end = std::to_string(percent);
@@ -113,7 +113,7 @@ constexpr float kOuter = 1.08f;
 /// Standard errors that none of some ten thousand pixels may exceed.
 constexpr double kErrors = 5.7;
 
-class WhiteFurnace : public ::testing::TestWithParam<Case> {};
+class WhiteFurnace : public ::testing::TestWithParam<FurnaceMaterial> {};
 
 TEST_P(WhiteFurnace, ABallThatAbsorbsNothingIsInvisible) {
   Material material = white();
