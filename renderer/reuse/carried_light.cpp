@@ -12,9 +12,9 @@ namespace {
 /// Colours of surfaces below this are not divided out.
 constexpr float kDarkest = 0.02f;
 /// Pixels around, in each direction, whose light is compared; its difference is allowed to be so many
-/// standard errors and this share of the light, and twice of both is too much.
+/// standard errors and a share of the light, and twice of both is too much.
 constexpr int kAround = 4;
-constexpr float kStandardErrors = 2.0f, kAllowed = 0.05f;
+constexpr float kStandardErrors = 2.0f;
 /// Pixels around, in each direction, whose samples decide how bright the carried light is.
 constexpr int kAroundMatch = 24;
 /// Finer light than kAroundLow is mixed in by at most this share.
@@ -38,7 +38,7 @@ float light_of(const float* color, const float* albedo) {
                          color[2] / light_divisor(albedo[2])));
 }
 
-void compare_samples(const FrameSamples& frame, std::vector<Carried>& carried) {
+void compare_samples(const FrameSamples& frame, std::vector<Carried>& carried, float allowed_share) {
   const std::size_t pixels = carried.size();
   std::vector<float> there(pixels), now(pixels), before(pixels), variance(pixels);
   for_each_pixel(pixels, [&](std::size_t i) {
@@ -56,7 +56,7 @@ void compare_samples(const FrameSamples& frame, std::vector<Carried>& carried) {
     const float pixels_there = there[i] * kArea;
     const float difference = std::abs(now[i] - before[i]) / there[i];
     const float noise = std::sqrt(variance[i] / there[i] / pixels_there);
-    const float allowed = kStandardErrors * noise + kAllowed * std::max(now[i], before[i]) / there[i];
+    const float allowed = kStandardErrors * noise + allowed_share * std::max(now[i], before[i]) / there[i];
     const float excess = allowed > 0.0f ? difference / allowed : 0.0f;
     carried[i].samples *= std::clamp(2.0f - excess, 0.0f, 1.0f);
   });

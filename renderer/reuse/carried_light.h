@@ -46,8 +46,13 @@ float light_of(const float* color, const float* albedo);
 /// What a colour is divided by for light_of(), of one channel of the albedo.
 float light_divisor(float albedo);
 
-/// Takes less over where the light around has changed by more than its noise. All work in the caller's arena.
-void compare_samples(const FrameSamples& frame, std::vector<Carried>& carried);
+/// A change of light by this share counts as none, where probes notice those of light and shadow.
+inline constexpr float kAllowedChange = 0.05f;
+
+/// Takes less over where the light around has changed by more than its noise and `allowed_share`. All work
+/// in the caller's arena.
+void compare_samples(const FrameSamples& frame, std::vector<Carried>& carried,
+                     float allowed_share = kAllowedChange);
 
 /// Corrects the carried light by the mean ratio of the samples to it, as far as their noise lets it be known:
 /// what a rough surface reflects changes slowly with the view.

@@ -36,7 +36,7 @@ using tests::TemporaryFolder;
 /// The overscan of a picture whose own window is not at the origin.
 const Imath::Box2i kDisplay({10, 20}, {14, 22});
 const Imath::Box2i kData({8, -3}, {16, 24});
-constexpr std::size_t kWidth = 9, kHeight = 28;
+constexpr std::size_t kStoredWidth = 9, kStoredHeight = 28;
 
 using Planes = std::map<std::string, std::vector<std::uint32_t>>;
 
@@ -55,8 +55,8 @@ Imf::FrameBuffer frame_of(const Imf::Header& header, Slices& planes) {
   Imf::FrameBuffer frame;
   for (auto it = header.channels().begin(); it != header.channels().end(); ++it) {
     std::vector<std::uint32_t>& plane = planes[it.name()];
-    plane.resize(kWidth * kHeight);
-    frame.insert(it.name(), Imf::Slice::Make(it.channel().type, plane.data(), kData, 4, 4 * kWidth));
+    plane.resize(kStoredWidth * kStoredHeight);
+    frame.insert(it.name(), Imf::Slice::Make(it.channel().type, plane.data(), kData, 4, 4 * kStoredWidth));
   }
   return frame;
 }
@@ -94,7 +94,7 @@ std::string write_file(const TemporaryFolder& folder, const std::vector<Imf::Hea
     } else {
       Imf::OutputPart part(file, static_cast<int>(p));
       part.setFrameBuffer(frame);
-      part.writePixels(static_cast<int>(kHeight));
+      part.writePixels(static_cast<int>(kStoredHeight));
     }
   }
   return path;
@@ -139,9 +139,9 @@ void expect_edited(const TemporaryFolder& folder, const std::string& path, const
   std::memcpy(&bits, &three, sizeof bits);
   for (const auto& [name, plane] : planes) {
     std::vector<std::uint32_t> expected = plane;
-    if (name == "image.r") expected.assign(kWidth * kHeight, one.bits());
-    if (name == "image.g") expected.assign(kWidth * kHeight, two.bits());
-    if (name == "image.b") expected.assign(kWidth * kHeight, bits);
+    if (name == "image.r") expected.assign(kStoredWidth * kStoredHeight, one.bits());
+    if (name == "image.g") expected.assign(kStoredWidth * kStoredHeight, two.bits());
+    if (name == "image.b") expected.assign(kStoredWidth * kStoredHeight, bits);
     EXPECT_EQ(now.at(name), expected) << name;
   }
 }
@@ -213,32 +213,32 @@ TEST(EditedExr, KeepsDeepParts) {
   Planes planes = made_planes(main);
   const auto deep_frame = [](std::vector<unsigned>& counts, std::vector<float*>& samples) {
     Imf::DeepFrameBuffer frame;
-    frame.insertSampleCountSlice(Imf::Slice::Make(Imf::UINT, counts.data(), kData, 4, 4 * kWidth));
+    frame.insertSampleCountSlice(Imf::Slice::Make(Imf::UINT, counts.data(), kData, 4, 4 * kStoredWidth));
     const Imf::Slice slice =
-        Imf::Slice::Make(Imf::FLOAT, samples.data(), kData, sizeof(float*), sizeof(float*) * kWidth);
-    frame.insert(
-        "Z", Imf::DeepSlice(Imf::FLOAT, slice.base, sizeof(float*), sizeof(float*) * kWidth, sizeof(float)));
+        Imf::Slice::Make(Imf::FLOAT, samples.data(), kData, sizeof(float*), sizeof(float*) * kStoredWidth);
+    frame.insert("Z", Imf::DeepSlice(Imf::FLOAT, slice.base, sizeof(float*), sizeof(float*) * kStoredWidth,
+                                     sizeof(float)));
     return frame;
   };
-  std::vector<unsigned> counts(kWidth * kHeight, 2);
+  std::vector<unsigned> counts(kStoredWidth * kStoredHeight, 2);
   std::vector<float> values = {1.5f, 2.5f};
-  std::vector<float*> samples(kWidth * kHeight, values.data());
+  std::vector<float*> samples(kStoredWidth * kStoredHeight, values.data());
   {
     const Imf::Header headers[] = {main, deep};
     Imf::MultiPartOutputFile file(path.c_str(), headers, 2);
     Imf::OutputPart part(file, 0);
     part.setFrameBuffer(frame_of(main, planes));
-    part.writePixels(static_cast<int>(kHeight));
+    part.writePixels(static_cast<int>(kStoredHeight));
     Imf::DeepScanLineOutputPart of_deep(file, 1);
     of_deep.setFrameBuffer(deep_frame(counts, samples));
-    of_deep.writePixels(static_cast<int>(kHeight));
+    of_deep.writePixels(static_cast<int>(kStoredHeight));
   }
   expect_edited(folder, path, main, planes);
   Imf::MultiPartInputFile file((folder / "out.exr").c_str());
   ASSERT_EQ(file.parts(), 2);
   Imf::DeepScanLineInputPart part(file, 1);
-  std::vector<unsigned> read_counts(kWidth * kHeight);
-  std::vector<float> read(2 * kWidth * kHeight);
+  std::vector<unsigned> read_counts(kStoredWidth * kStoredHeight);
+  std::vector<float> read(2 * kStoredWidth * kStoredHeight);
   for (std::size_t i = 0; i < samples.size(); ++i) samples[i] = &read[2 * i];
   part.setFrameBuffer(deep_frame(read_counts, samples));
   part.readPixelSampleCounts(kData.min.y, kData.max.y);
@@ -258,7 +258,7 @@ TEST(EditedExr, LeavesOutLayersAndTakesNewChannels) {
   for (Layer& layer : picture.layers) {
     if (layer.name != "image") continue;
     layer.channels = {"R", "G", "A"};
-    layer.values.assign(3 * kWidth * kHeight, 0.5f);
+    layer.values.assign(3 * kStoredWidth * kStoredHeight, 0.5f);
   }
   picture.metadata["denoiser"] = "a name";
   const std::string out = (folder / "out.exr").string();

@@ -19,9 +19,9 @@ constexpr int kGroupSeeds = 16;
 constexpr std::size_t kBlocks = 6;
 
 /// The mean luminance of blocks of 16x16 pixels of a picture, for each seed.
-using Blocks = std::array<Moments, kBlocks>;
+using GroupBlocks = std::array<Moments, kBlocks>;
 
-void add(const std::vector<float>& values, Blocks& blocks) {
+void add(const std::vector<float>& values, GroupBlocks& blocks) {
   std::array<double, kBlocks> sums{};
   for (std::size_t p = 0; p < values.size() / 3; ++p) {
     const std::size_t x = p % 48, y = p / 48;
@@ -61,7 +61,7 @@ TEST(LightGroupsStat, ALayerIsThePictureOfOnlyItsLights) {
   options.environment = testing::uniform_picture(folder, 0.2f);
   options.clamp = 0.0f;
   const std::vector<std::string> names = {"bulb", "torch", "noon", "panel", "sky", "rest"};
-  std::vector<Blocks> layers(names.size()), alone(names.size());
+  std::vector<GroupBlocks> layers(names.size()), alone(names.size());
   for (int seed = 0; seed < kGroupSeeds; ++seed) {
     options.seed = static_cast<std::uint32_t>(seed);
     const Picture picture = Renderer(all, options).render();
