@@ -24,7 +24,8 @@ An EXR is the input with other colours: layers, types of channels, windows, part
 --exr float, the colours become floats. Of an input of several parts, those are read that have the pixels of the first.
 
 With the place of a frame's number in INPUT and --output, frames are denoised: those of --frames, or all that there are.
-Where they have a layer of motion (--aov motion; Blender: "Vector"), each takes over light of the frame before.
+With --temporal on, those with a layer of motion (--aov motion; Blender: "Vector") take over light of the frame before,
+which suits light that holds still.
 
 Examples:
   gatelight render room.glb -o samples.exr --spp 64 --aov denoising

@@ -41,7 +41,7 @@ using nlohmann::ordered_json;
 using renderer::LayersToDenoise;
 
 /// Options that the picture's recipe sets, unless a flag does.
-constexpr const char* kOfRecipe[] = {"prefilter", "filter", "filter-width", "background", "temporal"};
+constexpr const char* kOfRecipe[] = {"prefilter", "filter", "filter-width", "background"};
 
 /// Text of a recipe's value, in the syntax that the option reads.
 std::string text_of_value(const ordered_json& value) {
@@ -230,7 +230,7 @@ class DenoiseRun {
       std::optional<renderer::Picture> denoised = arena.execute([&] {
         return denoise_picture(std::move(picture), layers, denoiser,
                                {o.denoise.prefilter, o.filter, o.filter_width, o.background}, progress(),
-                               !frames_.empty() && o.denoise.temporal ? &earlier_ : nullptr);
+                               carries_light() ? &earlier_ : nullptr);
       });
       if (!denoised) return false;
       denoised->metadata["denoiser"] = name_;
@@ -240,6 +240,11 @@ class DenoiseRun {
       throw InputError(fmt::format("'{}' {}", settings.input, error.what()));
     }
     return true;
+  }
+
+  /// Only where it is asked for: no probes tell of files that their light has changed (renderer/reuse).
+  bool carries_light() const {
+    return !frames_.empty() && given_.contains("--temporal") && whole_.render.denoise.temporal;
   }
 
   renderer::DenoiseProgress progress() {
