@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/film_exposure.h"
+#include "apps/film_sky.h"
 #include "apps/frame_groups.h"
 #include "apps/frame_settings.h"
 #include "apps/preview_video.h"
@@ -97,25 +98,25 @@ renderer::Renderer RenderRun::make_renderer(scene::SceneFile& file, scene::Scene
   shown_frame_.reset();
   settings_ = settings_of_frame(whole_, 0);
   const bool displayed = shows_on_a_screen(whole_.outputs) || !whole_.frames.film.empty();
-  if (whole_.exposure || !displayed) {
-    renderer::Renderer renderer(scene, settings_.render, group_.ranks);
-    shown_frame_ = 0;
-    return renderer;
-  }
-  renderer::Renderer renderer(scene, measuring_options(settings_.render), group_.ranks);
-  progress_.phase("exposure");
+  const bool measured = !whole_.exposure && displayed;
+  renderer::Renderer renderer(scene, measured ? measuring_options(settings_.render) : settings_.render,
+                              group_.ranks);
+  shown_frame_ = 0;
+  const auto show = [&](int frame) { show_frame(file, scene, renderer, frame); };
   const int last = last_frame_of_film(whole_, scene);
   const std::vector<int> frames = sampled_frames({{{0, last}}});
-  whole_.exposure =
-      film_exposure(renderer, frames, [&](int frame) { show_frame(file, scene, renderer, frame); },
-                    {.stop = [] { return stop_signal() != 0; }});
-  note("exposure",
-       fmt::format("{:.1f} EV by the light of the film, {} of its frames 0 to {}; --exposure {:.1f} "
-                   "keeps it",
-                   *whole_.exposure, frames.size(), last, *whole_.exposure));
-  show_frame(file, scene, renderer, 0);
-  settings_ = settings_of_frame(whole_, 0);
-  renderer.set_options(settings_.render);
+  choose_sky_of_film(renderer, frames, show);
+  if (measured) {
+    progress_.phase("exposure");
+    whole_.exposure = film_exposure(renderer, frames, show, {.stop = [] { return stop_signal() != 0; }});
+    note("exposure",
+         fmt::format("{:.1f} EV by the light of the film, {} of its frames 0 to {}; --exposure {:.1f} "
+                     "keeps it",
+                     *whole_.exposure, frames.size(), last, *whole_.exposure));
+    settings_ = settings_of_frame(whole_, 0);
+    renderer.set_options(settings_.render);
+  }
+  show(0);
   return renderer;
 }
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "apps/film_exposure.h"
+#include "apps/film_sky.h"
 #include "apps/frame_settings.h"
 #include "apps/python/running.h"
 #include "apps/terminal/text.h"
@@ -46,18 +47,18 @@ void Frames::begin(Unfinished unfinished, Waiting& waiting) {
   shown_ = finish_scene(*scene_, std::move(unfinished));
   show_scene(0);
   const renderer::RenderOptions options = apps::settings_of_frame(whole_, 0).render;
-  if (whole_.exposure) {
-    renderer_ = std::make_unique<renderer::Renderer>(shown_, options);
-  } else {
-    renderer_ = std::make_unique<renderer::Renderer>(shown_, apps::measuring_options(options));
-    const int last = apps::last_frame_of_film(whole_, shown_);
-    whole_.exposure =
-        apps::film_exposure(*renderer_, apps::sampled_frames({{{0, last}}}),
-                            [this](int frame) { show(frame); }, {.stop = waiting.callbacks().stop});
+  const bool measured = !whole_.exposure;
+  renderer_ =
+      std::make_unique<renderer::Renderer>(shown_, measured ? apps::measuring_options(options) : options);
+  const auto show_one = [this](int frame) { show(frame); };
+  const std::vector<int> frames = apps::sampled_frames({{{0, apps::last_frame_of_film(whole_, shown_)}}});
+  apps::choose_sky_of_film(*renderer_, frames, show_one);
+  if (measured) {
+    whole_.exposure = apps::film_exposure(*renderer_, frames, show_one, {.stop = waiting.callbacks().stop});
     if (waiting.stopped()) whole_.exposure.reset();
-    show(0);
     renderer_->set_options(options);
   }
+  show(0);
   if (whole_.render.choose_integrator) renderer::use_integrator(whole_.render, renderer_->integrator());
   if (renderer::uses_cache(renderer_->integrator()) && frames_.size() > 1) {
     for (const int frame : apps::sampled_frames(*whole_.frames.range)) {

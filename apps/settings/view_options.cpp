@@ -118,7 +118,7 @@ void add_view_options(std::vector<Option>& table, renderer::CameraOptions& camer
       environment;  // one flag sets the first three
   add({.name = "environment",
        .unit = "auto|none|r,g,b|FILE",
-       .help = "Light from all around: a soft sky if the scene has no light (auto), one radiance, or a "
+       .help = "Light from all around: a soft sky if no light shows the scene (auto), one radiance, or a "
                "latitude-longitude .exr or .hdr",
        .value = [&environment] { return environment_value(environment); },
        .read = [&environment](const std::string& text) { read_environment(environment, text); },

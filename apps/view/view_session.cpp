@@ -197,12 +197,20 @@ void ViewSession::prepare(const Task& task) {
   const bool same_environment = environment_ == task.settings.render.environment;
   environment_ = task.settings.render.environment;
   new_light_ = new_light_ || moved || !same_environment || !shares_cache_;
+  // A view keeps its soft sky while it is dragged; where it stays, it gets the one of `gatelight render`.
+  const std::optional<bool> sky = renderer_->soft_sky();
+  const bool keeps_sky = task.stage == Stage::draft && !moved && same_environment;
+  renderer_->keep_soft_sky(keeps_sky ? sky : std::nullopt);
   const renderer::RenderOptions options = options_of(task);
   // Where the renderer cannot take the options, the next picture has to show it the scene.
   moved_ = moved_ || moved;
   renderer_->set_options(options);
   if (moved_) renderer_->scene_moved(options.camera);
   moved_ = false;
+  if (!new_light_ && renderer_->soft_sky() != sky) {
+    new_light_ = true;
+    renderer_->set_options(options_of(task));
+  }
   if (task.stage != Stage::final && !shares_cache_) {
     renderer_->begin_frames(task.settings.load.time.value_or(0.0));
     shares_cache_ = true;
