@@ -9,7 +9,7 @@
 namespace gatelight::renderer {
 
 struct EnvironmentOptions {
-  /// A soft sky (light/soft_sky.h), where the scene has no light of its own. The others are then not set.
+  /// A soft sky (light/soft_sky.h), where no light of the scene shows it. The others are then not set.
   bool automatic = false;
   std::string file;                  ///< EXR or HDR picture, latitude-longitude; empty: constant
   Color constant{0.0f, 0.0f, 0.0f};  ///< radiance, where there is no file
