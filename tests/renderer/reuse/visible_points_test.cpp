@@ -152,7 +152,7 @@ struct ChangingWall {
   Camera camera{view_from(Vec3(0, 0, 4), Vec3::Zero()), kViewWidth, kViewHeight};
 };
 
-constexpr std::size_t kLeft = 4, kMiddle = kViewWidth / 2, kRight = kViewWidth - 5;
+constexpr std::size_t kLeftPixel = 4, kMiddlePixel = kViewWidth / 2, kRightPixel = kViewWidth - 5;
 
 TEST(VisiblePoints, OfTheSameMaterialHaveNotChanged) {
   for (const float change : ChangingWall().changes()) EXPECT_EQ(change, 0.0f);
@@ -167,24 +167,24 @@ TEST(VisiblePoints, TellTheChangeOfWhatThePixelShows) {
   ChangingWall colored;
   colored.material(colored.wall).base_color = Color(0.5f, 0.4f, 0.5f);
   const std::vector<float> color = colored.changes();
-  EXPECT_NEAR(color[kMiddle], 0.2f, 1e-5f);
-  EXPECT_NEAR(color[kLeft], 0.1f, 1e-5f) << "behind a pane of alpha 0.5";
-  EXPECT_NEAR(color[kRight], 0.2f, 1e-5f) << "in a mirror";
+  EXPECT_NEAR(color[kMiddlePixel], 0.2f, 1e-5f);
+  EXPECT_NEAR(color[kLeftPixel], 0.1f, 1e-5f) << "behind a pane of alpha 0.5";
+  EXPECT_NEAR(color[kRightPixel], 0.2f, 1e-5f) << "in a mirror";
 
   ChangingWall faded;
   faded.material(faded.veil).base_alpha = 0.4f;
   const std::vector<float> alpha = faded.changes();
-  EXPECT_EQ(alpha[kMiddle], 0.0f);
-  EXPECT_NEAR(alpha[kLeft], 0.1f, 1e-5f);
+  EXPECT_EQ(alpha[kMiddlePixel], 0.0f);
+  EXPECT_NEAR(alpha[kLeftPixel], 0.1f, 1e-5f);
 
   ChangingWall clear;
   clear.material(clear.veil).base_alpha = 0.0f;
-  EXPECT_NEAR(clear.changes()[kLeft], 0.5f, 1e-5f) << "also the last of it";
+  EXPECT_NEAR(clear.changes()[kLeftPixel], 0.5f, 1e-5f) << "also the last of it";
 
   const auto change_of = [](auto&& change) {
     ChangingWall changing;
     change(changing.material(changing.wall));
-    return changing.changes()[kMiddle];
+    return changing.changes()[kMiddlePixel];
   };
   EXPECT_EQ(change_of([](scene::Material& m) { m.emission = Color(0.1f, 0.0f, 0.0f); }), 1.0f);
   EXPECT_NEAR(change_of([](scene::Material& m) { m.roughness = 0.9f; }), 0.0f, 1e-5f) << "it is matte";
