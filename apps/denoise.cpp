@@ -24,8 +24,6 @@ An EXR is the input with other colours: layers, types of channels, windows, part
 --exr float, the colours become floats. Of an input of several parts, those are read that have the pixels of the first.
 
 With the place of a frame's number in INPUT and --output, frames are denoised: those of --frames, or all that there are.
-With --temporal on, those with a layer of motion (--aov motion; Blender: "Vector") take over light of the frame before,
-which suits light that holds still.
 
 Examples:
   gatelight render room.glb -o samples.exr --spp 64 --aov denoising
@@ -34,8 +32,8 @@ Examples:
   gatelight denoise in-%04d.exr -o out-%04d.exr)";
 
 /// The options of `render` that this command has too.
-constexpr const char* kOfRender[] = {"background", "filter", "filter-width", "prefilter",
-                                     "temporal",   "oidn",   "threads",      "memory-limit"};
+constexpr const char* kOfRender[] = {"background", "filter",  "filter-width", "prefilter",
+                                     "oidn",       "threads", "memory-limit"};
 
 std::vector<Option> denoise_table(DenoiseSettings& settings) {
   std::vector<Option> table;

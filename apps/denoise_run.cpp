@@ -229,8 +229,7 @@ class DenoiseRun {
       choice_ = text_of_choice(picture, layers);
       std::optional<renderer::Picture> denoised = arena.execute([&] {
         return denoise_picture(std::move(picture), layers, denoiser,
-                               {o.denoise.prefilter, o.filter, o.filter_width, o.background}, progress(),
-                               carries_light() ? &earlier_ : nullptr);
+                               {o.denoise.prefilter, o.filter, o.filter_width, o.background}, progress());
       });
       if (!denoised) return false;
       denoised->metadata["denoiser"] = name_;
@@ -240,11 +239,6 @@ class DenoiseRun {
       throw InputError(fmt::format("'{}' {}", settings.input, error.what()));
     }
     return true;
-  }
-
-  /// Only where it is asked for: no probes tell of files that their light has changed (renderer/reuse).
-  bool carries_light() const {
-    return !frames_.empty() && given_.contains("--temporal") && whole_.render.denoise.temporal;
   }
 
   renderer::DenoiseProgress progress() {
@@ -283,7 +277,6 @@ class DenoiseRun {
   std::set<std::string> given_;
   std::vector<int> frames_;  ///< empty: a single picture
   std::string name_, choice_;
-  renderer::EarlierFrame earlier_;
   Clock::time_point start_ = Clock::now();
   ProgressReporter progress_;
 };

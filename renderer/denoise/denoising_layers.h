@@ -1,11 +1,11 @@
 #pragma once
 // Writes and reads a denoiser's inputs as layers of a picture.
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "renderer/denoise/denoise.h"
-#include "renderer/denoise/layers_to_denoise.h"
 #include "renderer/image/picture.h"
 
 namespace gatelight::renderer {
@@ -17,6 +17,16 @@ namespace gatelight::renderer {
 void add_denoising_layers(Picture& picture, const NoisyPicture& samples, int factor);
 
 bool is_denoising_layer(const std::string& name);
+
+/// Layers that belong together, by their names in the picture.
+struct LayersToDenoise {
+  bool own = false;    ///< the samples are the layers of add_denoising_layers(); `color` is not used
+  std::string color;   ///< the colours with noise
+  std::string result;  ///< the layer whose colours become the denoised ones
+  std::optional<std::string> albedo, normal;
+
+  bool has_guides() const { return albedo || normal; }
+};
 
 /// The samples of a picture.
 struct Samples {

@@ -8,7 +8,6 @@
 #include <iterator>
 
 #include "base/errors.h"
-#include "renderer/denoise/denoising_layers.h"
 #include "renderer/image/color_channels.h"
 #include "renderer/image/layer_names.h"
 
@@ -24,18 +23,7 @@ bool same_word(const std::string& a, const std::string& b) {
 
 /// Whether the layer's channels suit its role.
 bool suits(const Layer& layer, LayerRole role) {
-  switch (role) {
-    case LayerRole::normal:
-      return vector_channels(layer).has_value();
-    case LayerRole::depth:
-      return layer.channels.size() == 1;
-    case LayerRole::object:
-      return true;
-    case LayerRole::motion:
-      return layer.channels.size() >= 2 && layer.channels[0] == "X" && layer.channels[1] == "Y";
-    default:
-      return color_channels(layer).has_value();
-  }
+  return role == LayerRole::normal ? vector_channels(layer).has_value() : color_channels(layer).has_value();
 }
 
 /// The layer of that name, in any case if there is none in this one.
@@ -76,14 +64,6 @@ class Chooser {
   void add_guides(LayersToDenoise& layers, const std::string* group) const {
     layers.albedo = name(LayerRole::albedo, group);
     layers.normal = name(LayerRole::normal, group);
-    add_frame_layers(layers, group);
-  }
-
-  /// Names what tells how surfaces move from frame to frame.
-  void add_frame_layers(LayersToDenoise& layers, const std::string* group) const {
-    layers.depth = name(LayerRole::depth, group);
-    layers.object = name(LayerRole::object, group);
-    layers.motion = name(LayerRole::motion, group);
   }
 
   /// The groups with colours, that of the picture that is shown first.

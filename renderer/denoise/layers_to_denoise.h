@@ -1,24 +1,13 @@
 #pragma once
 // Chooses the layers of a picture that are denoised, and their guides, by their names.
 
-#include <optional>
 #include <string>
 #include <vector>
 
+#include "renderer/denoise/denoising_layers.h"
 #include "renderer/image/picture.h"
 
 namespace gatelight::renderer {
-
-/// Layers that belong together, by their names in the picture.
-struct LayersToDenoise {
-  bool own = false;    ///< the samples are the layers of add_denoising_layers(); `color` is not used
-  std::string color;   ///< the colours with noise
-  std::string result;  ///< the layer whose colours become the denoised ones
-  std::optional<std::string> albedo, normal;
-  std::optional<std::string> depth, object, motion;  ///< for frames of an animation
-
-  bool has_guides() const { return albedo || normal; }
-};
 
 /// Names of layers; empty: the usual ones. For a guide "none": there is none.
 struct LayerNames {

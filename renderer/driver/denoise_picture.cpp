@@ -8,7 +8,6 @@
 #include "renderer/denoise/denoise.h"
 #include "renderer/denoise/denoising_layers.h"
 #include "renderer/driver/background.h"
-#include "renderer/driver/picture_frames.h"
 #include "renderer/image/color_channels.h"
 
 namespace gatelight::renderer {
@@ -45,7 +44,7 @@ void put_first(Picture& picture, const std::string& name) {
 
 std::optional<Picture> denoise_picture(Picture picture, const std::vector<LayersToDenoise>& layers,
                                        Denoiser& denoiser, const DenoisePictureOptions& options,
-                                       const DenoiseProgress& progress, EarlierFrame* earlier) {
+                                       const DenoiseProgress& progress) {
   // All samples are read before any of their layers is replaced.
   std::vector<Samples> samples;
   for (const LayersToDenoise& some : layers) {
@@ -60,7 +59,6 @@ std::optional<Picture> denoise_picture(Picture picture, const std::vector<Layers
     const ScaleDown scale(samples[i].factor, options.filter, options.filter_width);
     auto denoised = denoise(denoiser, samples[i].noisy(), {.prefilter = options.prefilter}, scale, part);
     if (!denoised) return std::nullopt;
-    if (earlier) mix_earlier_frame(picture, layers[i], samples[i], *earlier, denoised->color);
     put_first(picture, layers[i].result);
     if (samples[i].alpha.empty()) {
       // An alpha of another program stays.

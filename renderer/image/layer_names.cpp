@@ -33,13 +33,6 @@ constexpr UsualName kUsual[] = {
     {"n", LayerRole::normal},                // Arnold, Karma
     {"ns", LayerRole::normal},               // pbrt
     {"shnormal", LayerRole::normal},         // Mitsuba
-    {"depth", LayerRole::depth},             //
-    {"z", LayerRole::depth},                 //
-    {"denoisingdepth", LayerRole::depth},    // Blender
-    {"motion", LayerRole::motion},           // ours
-    {"vector", LayerRole::motion},           // Blender
-    {"instance", LayerRole::object},         // ours
-    {"cryptoobject00", LayerRole::object},   // Cryptomatte: Blender, ours
 };
 
 char lower(char c) {

@@ -5,7 +5,7 @@
 
 namespace gatelight::renderer {
 
-enum class LayerRole { beauty, noisy, albedo, normal, depth, motion, object, other };
+enum class LayerRole { beauty, noisy, albedo, normal, other };
 
 struct LayerMeaning {
   LayerRole role = LayerRole::other;

@@ -224,44 +224,6 @@ TEST_F(DenoiseCommand, DenoisesGreyPicturesAndSeveralViewLayers) {
   EXPECT_EQ(renderer::read_image(path("c.exr")).find("Composite.Combined")->values, image.color);
 }
 
-/// The mean square of what changes from frame to frame of a picture that stays.
-double flicker(const std::string& folder, int frames) {
-  double sum = 0.0;
-  std::vector<float> before;
-  for (int frame = 1; frame <= frames; ++frame) {
-    std::vector<float> now =
-        renderer::read_image(folder + "/out-" + std::to_string(frame) + ".exr").layers[0].values;
-    if (!before.empty()) sum += std::pow(testing::deviation(before, now), 2);
-    before = std::move(now);
-  }
-  return sum / (frames - 1);
-}
-
-TEST_F(DenoiseCommand, FramesHoldStillWhereSurfacesDo) {
-  GATELIGHT_NEEDS_DENOISER();
-  constexpr int kFrames = 5;
-  const auto write = [&](bool motion) {
-    for (int frame = 1; frame <= kFrames; ++frame) {
-      renderer::Picture picture = picture_of(
-          testing::noisy_image(kWidth, kHeight, 10u + static_cast<unsigned>(frame)), {"", "albedo", "N"});
-      if (motion)
-        picture.layers.push_back({"motion", {"X", "Y"}, std::vector<float>(2 * kWidth * kHeight), true});
-      write_image(picture, path("in-" + std::to_string(frame) + ".exr"), {.exr_float = true});
-    }
-  };
-  const auto denoised = [&](std::vector<std::string> flags) {
-    flags.insert(flags.begin(), {"denoise", path("in-%d.exr"), "-o", path("out-%d.exr"), "--quiet"});
-    const Output output = run_gatelight_inside(flags);
-    EXPECT_EQ(output.exit_code, 0) << output.err;
-    return flicker(path(""), kFrames);
-  };
-  write(true);
-  const double still = denoised({"--temporal", "on"}), alone = denoised({});
-  EXPECT_LT(still, 0.5 * alone);
-  write(false);
-  EXPECT_EQ(denoised({"--temporal", "on"}), alone) << "nothing tells where surfaces were";
-}
-
 TEST_F(DenoiseCommand, FramesAreThoseThatExistOrThatAreNamed) {
   GATELIGHT_NEEDS_DENOISER();
   for (const char* const name : {"in-0001.exr", "in-0003.exr", "in-12.exr", "on-0005.exr", "in-0007.png"})

@@ -87,16 +87,5 @@ TEST(LayersToDenoise, WithOtherChannelsAreNoGuides) {
   expect_refusal<InputError>([&] { layers_to_denoise(depth); }, {"'depth'", "R, G and B"});
 }
 
-TEST(LayersToDenoise, ThatTellHowSurfacesMoveAreThoseOfTheViewLayer) {
-  const Picture picture = picture_with({"V.Combined", "V.Vector:XYZW", "V.Depth:Z", "V.CryptoObject00:RGBA",
-                                        "V.Albedo", "O.Combined", "O.N:XYZ", "motion:XY"});
-  const std::vector<LayersToDenoise> all = layers_to_denoise(picture);
-  ASSERT_EQ(all.size(), 2u);
-  EXPECT_EQ(all[0].motion, "V.Vector");
-  EXPECT_EQ(all[0].depth, "V.Depth");
-  EXPECT_EQ(all[0].object, "V.CryptoObject00");
-  EXPECT_FALSE(all[1].motion || all[1].depth || all[1].object);
-}
-
 }  // namespace
 }  // namespace gatelight::renderer
