@@ -51,7 +51,9 @@ std::optional<DenoisedRows> denoise_rows(Denoiser& denoiser, const NoisyPicture&
     const auto& [read, plane] = planes[i];
     if (read != nullptr) *plane = (*read)(top, bottom);
   });
-  if (!denoiser.filter(image, options, progress)) return std::nullopt;
+  // The filter would give black a little light.
+  const bool black = std::all_of(image.color.begin(), image.color.end(), [](float c) { return c == 0.0f; });
+  if (!black && !denoiser.filter(image, options, progress)) return std::nullopt;
   for_each_range(image.color.size(), 1 << 14, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
       image.color[i] = std::isfinite(image.color[i]) ? std::max(image.color[i], 0.0f) : 0.0f;

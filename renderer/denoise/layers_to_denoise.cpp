@@ -148,7 +148,6 @@ std::vector<LayersToDenoise> layers_to_denoise(const Picture& picture, const Lay
     if (is_denoising_layer(shown.name) || !color_channels(shown))
       throw InputError("has no picture beside the layers of --aov denoising");
     chosen = {own_layers(picture)};
-    Chooser(picture).add_frame_layers(chosen.front(), nullptr);
   } else if (names.color.empty()) {
     chosen = usual_layers(picture);
   } else {

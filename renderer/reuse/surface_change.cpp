@@ -9,7 +9,7 @@ namespace gatelight::renderer {
 namespace {
 
 /// Dielectrics reflect as much beside their colour, and differences of darker colours are seen less.
-constexpr float kDarkest = 0.04f;
+constexpr float kDarkestColor = 0.04f;
 /// Smoother lobes look alike.
 constexpr float kSmoothest = 0.1f;
 
@@ -29,8 +29,8 @@ float lobe_change(float share_now, float share_earlier, float roughness_now, flo
 float colors_change(const SurfaceMaterial& a, const SurfaceMaterial& b) {
   const Color through = a.diffuse_transmission * a.diffuse_transmission_color;
   const Color through_before = b.diffuse_transmission * b.diffuse_transmission_color;
-  return relative(a.base_color, b.base_color, kDarkest) +
-         relative(a.specular_color, b.specular_color, kDarkest) +
+  return relative(a.base_color, b.base_color, kDarkestColor) +
+         relative(a.specular_color, b.specular_color, kDarkestColor) +
          (through - through_before).abs().maxCoeff() + (a.sheen_color - b.sheen_color).abs().maxCoeff();
 }
 

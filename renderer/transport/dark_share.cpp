@@ -27,14 +27,20 @@ struct Place {
   std::array<bool, kSamples> hit{};
 };
 
+PathIntegratorOptions paths_of(int bounces) {
+  RenderOptions options;
+  options.max_depth = bounces;
+  return path_integrator_options(options);
+}
+
 /// Paths of one place, and the same without bounces.
 class Eye {
  public:
   Eye(const World& world, const View& view, const Interior& around, int width, int height)
       : camera_(view, width, height),
         width_(width),
-        lit_(world, path_integrator_options({.max_depth = kBounces})),
-        glow_(world, path_integrator_options({.max_depth = 0})) {
+        lit_(world, paths_of(kBounces)),
+        glow_(world, paths_of(0)) {
     camera_.set_around(around);
   }
 

@@ -79,7 +79,7 @@ TEST_P(FinishedPicture, IsReproducedFromItsLayersToTheBit) {
         const Picture finished = render(o);
         Picture samples = finished;
         samples.layers[0].values.assign(samples.layers[0].values.size(), 0.0f);
-        const auto again = denoise_picture(samples, samples_of(samples), denoiser,
+        const auto again = denoise_picture(samples, {own_layers(samples)}, denoiser,
                                            {.prefilter = prefilter,
                                             .filter = o.filter,
                                             .filter_width = o.filter_width,

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "renderer/denoise/denoising_layers.h"
+#include "renderer/denoise/layers_to_denoise.h"
 #include "renderer/image/image_read.h"
 #include "tests/support/temporary_folder.h"
 
