@@ -133,9 +133,7 @@ void add_frame_options(OptionGroup& group, FrameSettings& frames) {
   add(common(
       {.name = "frames",
        .unit = "A:B[:STEP]",
-       .help =
-           "Frames to render, each to its own file: -o frame-%04d.exr, #### or {frame}, also in a folder's "
-           "name; %% is a %. Lists are 1,3,5-9",
+       .help = "Frames, or a list as 1,3,5-9, each to its own file: -o frame-%04d.exr, #### or {frame}",
        .value = [&chosen = range]() -> OptionValue { return text_of(*chosen); },
        .read = [&chosen = range](const std::string& text) { chosen = parse_frames("--frames", text); }}));
   add({.name = "fps",
@@ -186,7 +184,7 @@ Option preset_option(std::optional<CachePreset>& preset) {
 
 void add_picture_files(OptionGroup& group, std::vector<std::string>& outputs,
                        renderer::ImageWriteOptions& image, std::optional<float>& stops) {
-  auto& [exr_float, bits, display, edited] = image;  // `edited` is no option
+  auto& [exr_float, bits, display, edited] = image;          // `edited` is no option
   auto& [exposure, white_balance, tonemap, ocio] = display;  // `stops` sets the exposure
   auto& [ocio_config, ocio_display, ocio_view] = ocio;
   Option& output = group.add(common(not_in_sweep(any_words(

@@ -101,7 +101,7 @@ Option aov_option(std::vector<Aov>& aovs) {
       "Further layers of EXR files, separated by commas: albedo, normal, depth, position, primitive, "
       "instance, alpha, samples, variance, raw (the mean of the samples), error (the estimated standard "
       "error), denoising (the input of `gatelight denoise`), motion (pixels since the frame before, y up), "
-      "motion-next (until the next frame); of a cache cache-radiance, cache-answer, cache-error, "
+      "motion-next; of a cache cache-radiance, cache-answer, cache-error, "
       "training-count, resolution, nearest-node; or all";
   return {.name = "aov",
           .unit = "LIST",

@@ -84,6 +84,10 @@ void CacheSession::synchronize() {
 }
 
 void CacheSession::look_at_answers(const RecordBatch& group) {
+  if (!fits_) {  // answers for another light say nothing about the training
+    guard_ = {};
+    return;
+  }
   const std::size_t some = std::min(TrainingGuard::kLookedAt, group.records.size());
   guard_.look_at_answers(group.targets, group.records.batch(0, some), *trainer_, steps_);
 }

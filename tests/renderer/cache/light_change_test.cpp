@@ -68,7 +68,7 @@ TEST(LightChange, IsTheShareOfWhatChanged) {
     if (records.on_the_left(i))
       std::fill_n(records.answers.begin() + static_cast<std::ptrdiff_t>(3 * i), 3, 5.0f);
   }
-  EXPECT_NEAR(records.change(), 0.4, 0.08) << "half of the records have four fifths too much";
+  EXPECT_NEAR(records.change(), 2.0 / 3.0, 0.08) << "together they are three times as bright as right";
 }
 
 TEST(LightChange, NoticesALittleLessEverywhere) {

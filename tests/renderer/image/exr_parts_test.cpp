@@ -68,11 +68,11 @@ TEST(ExrParts, AreLayersWithTheNamesOfTheirChannelsOrTheirOwn) {
        {"View.Denoising Albedo",
         {"View.Denoising Albedo.R", "View.Denoising Albedo.G", "View.Denoising Albedo.B"},
         10.0f},
-       {"Denoising Normal", {"X", "Y", "Z"}, 20.0f}}));
+       {"View.Denoising Normal", {"X", "Y", "Z"}, 20.0f}}));
   ASSERT_EQ(picture.layers.size(), 4u);
   EXPECT_EQ(picture.layers[0].name, "View.Combined") << "the layer that is shown comes first";
   EXPECT_EQ(picture.layers[0].values[2], 4.0f);
-  ASSERT_TRUE(picture.find("Denoising Normal")) << "channels without a layer take the name of the part";
+  ASSERT_TRUE(picture.find("View.Denoising Normal")) << "channels without a layer take the name of the part";
   EXPECT_EQ(picture.find("View.Depth")->values, std::vector<float>(6, 1.0f));
   // The guides of other renderers are found in parts too.
   const Samples samples = samples_of(picture, layers_to_denoise(picture).front());

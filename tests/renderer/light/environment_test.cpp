@@ -232,9 +232,10 @@ TEST_F(EnvironmentFileTest, ColoursAreChosenByTheNamesOfTheirChannels) {
     return Environment({.file = path}).radiance(Vec3(0, 1, 0));
   };
   EXPECT_TRUE(light({"A", "B", "G", "R", "Z"}).isApprox(Color(4, 3, 2)));
+  EXPECT_TRUE(light({"b", "g", "r"}).isApprox(Color(3, 2, 1))) << "in any case";
   EXPECT_TRUE(light({"A", "Y"}).isApprox(Color(2, 2, 2))) << "alpha is no light";
-  const std::vector<std::vector<std::string>> without = {{"Z"},           {"A"},           {"R", "G"},
-                                                         {"b", "g", "r"}, {"X", "Y", "Z"}, {"G", "Y"}};
+  const std::vector<std::vector<std::string>> without = {
+      {"Z"}, {"A"}, {"R", "G"}, {"X", "Y", "Z"}, {"G", "Y"}};
   for (const std::vector<std::string>& channels : without) {
     expect_refusal<InputError>([&] { light(channels); }, {"sky.exr", channels[0], "R", "G", "B", "Y"});
   }
