@@ -46,7 +46,8 @@ std::size_t geometry_bytes(const Scene& scene) {
   }
   for (const std::vector<Affine>& states : scene.shutter.transforms) total += states.size() * sizeof(Affine);
   for (const std::vector<DeformedVertices>& states : scene.shutter.vertices) {
-    for (const DeformedVertices& v : states) total += bytes(v.positions) + bytes(v.normals) + bytes(v.tangents);
+    for (const DeformedVertices& v : states)
+      total += bytes(v.positions) + bytes(v.normals) + bytes(v.tangents);
   }
   return total;
 }

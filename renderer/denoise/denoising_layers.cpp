@@ -145,7 +145,8 @@ void add_denoising_layers(Picture& picture, const NoisyPicture& samples, int fac
 
 bool is_denoising_layer(const std::string& name) {
   constexpr const char* kOwn[] = {kColor, kAlbedo, kNormal, kAlpha};
-  return std::any_of(std::begin(kOwn), std::end(kOwn), [&](const char* own) { return name.starts_with(own); });
+  return std::any_of(std::begin(kOwn), std::end(kOwn),
+                     [&](const char* own) { return name.starts_with(own); });
 }
 
 NoisyPicture Samples::noisy() const {
