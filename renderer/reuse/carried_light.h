@@ -67,11 +67,4 @@ CarriedLight with_carried(const FrameSamples& frame, const std::vector<Carried>&
 /// interpolated.
 void mix_light(const CarriedLight& carried, const PixelRect& rect, std::vector<float>& denoised);
 
-/// Pixels so near an edge, in each direction, mix the light of surfaces: filters of pixels and the denoiser
-/// reach as far. What they show is not carried. A dark arch before a sunlit wall would grow brighter as it
-/// comes nearer.
-inline constexpr int kAroundEdge = 2;
-/// The cosine of normals below which they belong to different surfaces.
-inline constexpr float kLeastCosine = 0.9f;
-
 }  // namespace gatelight::renderer

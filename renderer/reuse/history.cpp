@@ -15,6 +15,12 @@ namespace {
 /// The earlier point of a pixel lies near the present one: in normal direction at most this many pixels away,
 /// along the surface this many.
 constexpr float kMostAcross = 1.0f, kMostAlong = 3.0f;
+/// Pixels so near an edge, in each direction, mix the light of surfaces: filters of pixels and the denoiser
+/// reach as far. What they show is not carried. A dark arch before a sunlit wall would grow brighter as it
+/// comes nearer.
+constexpr int kAroundEdge = 2;
+/// The cosine of normals below which they belong to different surfaces.
+constexpr float kLeastCosine = 0.9f;
 /// Pixels around, in each direction, whose probes are compared. Their light is the same up to the first
 /// relative change, and another from the second on.
 constexpr int kAroundProbe = 2;
