@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "apps/live/tev_packets.h"
 #include "apps/rank_checks.h"
 #include "apps/reports/glare_warning.h"
 #include "apps/reports/overflow_warning.h"
@@ -45,9 +44,6 @@ RenderRun::RenderRun(RenderSettings settings, const std::vector<std::string>& co
       progress_(settings_.quiet ? ProgressMode::none : settings_.progress, count_pixels(settings_.render)) {
   report_.command = command;
   report_.hosts = group.hosts;
-  if (!settings_.live.empty() && group.ranks.first())
-    live_.emplace(parse_network_address("--live", settings_.live, kTevPort),
-                  [this](const std::string& text) { warn(text); });
 }
 
 int RenderRun::run() {
@@ -115,7 +111,6 @@ int RenderRun::end_picture(renderer::Picture picture, const renderer::RenderStat
   report_.signal = signal();
   if (const std::string& why = report_.statistics.denoise_failure; !why.empty())
     warn(fmt::format("the picture keeps its noise: {}", why));
-  if (group_.ranks.first()) show_live(picture, Clock::now());
   if (group_.ranks.first()) write_results(std::move(picture));
   renderer::agreed(group_.ranks, 0);  // what follows may end all ranks: rank 0 has written by now
   if (!report_.statistics.device_lost.empty())
@@ -135,17 +130,9 @@ renderer::Callbacks RenderRun::make_callbacks(const renderer::Renderer& renderer
   return {
       .progress = [this](const renderer::Progress& progress) { progress_.update(progress); },
       .stop = [] { return stop_signal() != 0; },
-      .snapshot_wanted =
-          [this] {
-            snapshot_asked_ = take_snapshot_request();
-            snapshot_start_ = Clock::now();
-            return snapshot_asked_ || (live_ && live_->is_due());
-          },
-      .snapshot =
-          [this, &renderer](const renderer::Picture& picture) {
-            if (snapshot_asked_) write_snapshot(picture, renderer.statistics());
-            show_live(picture, snapshot_start_);
-          },
+      .snapshot_wanted = [] { return take_snapshot_request(); },
+      .snapshot = [this, &renderer](
+                      const renderer::Picture& picture) { write_snapshot(picture, renderer.statistics()); },
       .output_failed = [this](const std::exception_ptr& error,
                               bool again) { note_failed_output(error, again); },
   };
@@ -180,13 +167,6 @@ void RenderRun::warn_of_glare(const renderer::Picture& picture, const renderer::
   if (text.empty()) return;
   glare_reported_ = true;
   warn(text);
-}
-
-void RenderRun::show_live(const renderer::Picture& picture, Clock::time_point started) {
-  if (!live_) return;
-  // All frames are shown as one image.
-  const std::vector<std::string>& outputs = (settings_.frames.range ? whole_ : settings_).outputs;
-  live_->show(outputs.front(), picture, started);
 }
 
 void RenderRun::write_snapshot(const renderer::Picture& picture,

@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "apps/live/live_display.h"
 #include "apps/rank_group.h"
 #include "apps/reports/run_report.h"
 #include "apps/settings/render_settings.h"
@@ -82,7 +81,6 @@ class RenderRun {
                       const std::vector<std::string>& outputs);
   void warn_of_glare(const renderer::Picture& picture, const renderer::DisplayOptions& display,
                      float suitable);
-  void show_live(const renderer::Picture& picture, Clock::time_point started);
   void write_snapshot(const renderer::Picture& picture, const renderer::RenderStatistics& statistics);
   void write_results(renderer::Picture picture);
   void print_results();
@@ -106,9 +104,6 @@ class RenderRun {
   Clock::time_point start_ = Clock::now();
   ProgressReporter progress_;
   std::set<std::string> printed_warnings_;
-  std::optional<LiveDisplay> live_;
-  bool snapshot_asked_ = false;  ///< by a signal; else the picture so far is for live_
-  Clock::time_point snapshot_start_;
   std::string bright_lights_;  ///< lights_from_watts()
   bool glare_reported_ = false;
   std::exception_ptr failed_output_;  ///< the last failure of a checkpoint or cache file

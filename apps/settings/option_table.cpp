@@ -35,7 +35,7 @@ constexpr Choice<ProgressMode> kProgressModes[] = {{"auto", ProgressMode::automa
 /// Options of the call, which do not change its results.
 void add_call_options(OptionGroup& group, RenderSettings& settings) {
   auto& [scene, outputs, render, load, frames, image, exposure, eye, target, up, view_file, config, stats,
-         live, skip_existing, progress, reproducible, quiet, verbose, preset, given] = settings;
+         skip_existing, progress, reproducible, quiet, verbose, preset, given] = settings;
   const auto add = [&](Option option) { group.add(in_recipe(std::move(option), InRecipe::never)); };
   add(not_in_sweep(toggle("skip-existing", skip_existing,
                           "Leave out frames, and cameras, whose pictures are there already")));
@@ -43,9 +43,6 @@ void add_call_options(OptionGroup& group, RenderSettings& settings) {
       "reproducible", reproducible,
       "Leave times, threads and the command line out of the EXR header: equal renders give equal files")));
   add(common(not_in_sweep(any_word("stats", stats, "FILE|-", "Statistics as JSON; - is stdout"))));
-  add(not_in_sweep(any_word("live", live, "HOST:PORT",
-                            "Show the picture while it is made in the image viewer tev, which listens at "
-                            "127.0.0.1:14158")));
   add(progress_option(progress));
   add(common(not_in_sweep(toggle("quiet", quiet, "Print errors only"))));
   add(not_in_sweep(
@@ -235,7 +232,7 @@ Option positional(const char* name, std::string& member, const char* help) {
 std::vector<Option> option_table(RenderSettings& settings) {
   // --config belongs to all subcommands.
   auto& [scene, outputs, render, load, frames, image, exposure, eye, target, up, view_file, config, stats,
-         live, skip_existing, progress, reproducible, quiet, verbose, preset, given] = settings;
+         skip_existing, progress, reproducible, quiet, verbose, preset, given] = settings;
   std::vector<Option> table;
   table.push_back(positional("SCENE", scene, "Scene, .gltf or .glb"));
   OptionGroup output{table, "Output"};

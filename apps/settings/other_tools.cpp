@@ -19,7 +19,7 @@ constexpr std::array kWords = {
     Word{"--cropwindow", "--region x0,y0,x1,y1"},
     Word{"--denoise", "--denoiser auto"},
     Word{"--depth", "--max-depth N"},
-    Word{"--display-server", "--live HOST:PORT"},
+    Word{"--display-server", "gatelight view SCENE"},
     Word{"-E", "--integrator NAME"},
     Word{"--engine", "--integrator NAME"},
     Word{"--env", "--environment FILE"},

@@ -32,7 +32,6 @@ struct RenderSettings {
   std::string view_file;       ///< file of --view-file, empty for none
   std::string config;          ///< file of --config, empty for none
   std::string stats;           ///< file, "-" for stdout, empty for none
-  std::string live;            ///< HOST:PORT of a viewer that shows the picture, empty for none
   bool skip_existing = false;  ///< pictures are left out whose files are there
   ProgressMode progress = ProgressMode::automatic;
   bool reproducible = false;

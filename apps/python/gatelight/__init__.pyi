@@ -30,7 +30,6 @@ class Options(TypedDict, total=False):
     skip_existing: Value
     reproducible: Value
     stats: Value
-    live: Value
     quiet: Value
     verbose: Value
     checkpoint: Value
