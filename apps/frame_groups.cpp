@@ -80,24 +80,16 @@ FrameResults joined_results(renderer::Ranks& all, const FrameResults& mine) {
   FrameResults sum;
   const json own = {{"signal", mine.signal},
                     {"done", mine.done},
-                    {"failed", mine.failed},
                     {"warnings", mine.warnings},
                     {"failure", json_of(mine.failure)}};
   for (const Bytes& bytes : all.gather(bytes_of(own))) {
     const json one = object_of(bytes);
     sum.signal = std::max(sum.signal, one["signal"].get<int>());
     sum.done += one["done"].get<std::size_t>();
-    for (const int frame : one["failed"]) sum.failed.push_back(frame);
     for (const std::string warning : one["warnings"]) sum.warnings.push_back(warning);
     if (!sum.failure) sum.failure = failure_of(one["failure"]);
   }
   return sum;
-}
-
-std::optional<Failure> shared_failure(renderer::Ranks& all, const std::optional<Failure>& mine) {
-  Bytes bytes = bytes_of(json_of(mine));
-  all.broadcast(bytes);
-  return failure_of(object_of(bytes));
 }
 
 }  // namespace gatelight::apps

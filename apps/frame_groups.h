@@ -26,15 +26,11 @@ std::vector<int> frames_of_group(const std::vector<int>& all, int groups, int nu
 struct FrameResults {
   int signal = 0;  ///< that ended them; 0: none
   std::size_t done = 0;
-  std::vector<int> failed;
   std::vector<std::string> warnings;
   std::optional<Failure> failure;  ///< that of the first frame which failed
 };
 
 /// Those of all groups, at each rank. All ranks call it.
 FrameResults joined_results(renderer::Ranks& all, const FrameResults& mine);
-
-/// Rank 0's failure, at each rank: all ranks end with the same one. All ranks call it.
-std::optional<Failure> shared_failure(renderer::Ranks& all, const std::optional<Failure>& mine);
 
 }  // namespace gatelight::apps

@@ -13,7 +13,6 @@
 #include "apps/terminal/errors.h"
 #include "apps/terminal/log.h"
 #include "apps/terminal/signals.h"
-#include "apps/video_encoder.h"
 #include "base/errors.h"
 
 namespace gatelight::apps {
@@ -29,7 +28,7 @@ Examples:
   gatelight render room.glb -o room.exr -o room.png --spp 256 --size 1920x1080
   gatelight render hall.glb -o hall.png --camera hall --environment 0.65,0.8,1 --exposure 1 --tonemap filmic
   gatelight render house.glb -o house.png --sky "date=2026-06-21, time=18:30, place=48.1,11.6, zone=+2"
-  gatelight render robot.glb -o robot-%04d.png --preset standard --frames 0:47 --preview-video robot.mp4
+  gatelight render robot.glb -o robot-%04d.png --preset standard --frames 0:47
   gatelight render room.glb -o room.png --preset preview --cache-out room.safetensors
   gatelight render room.glb -o room.exr --preset standard --time-limit 10
   gatelight render room.glb -o room.exr --denoiser oidn --max-error 0.05)";
@@ -41,7 +40,6 @@ int run_render(RenderSettings settings, const std::vector<std::string>& command,
   if (!group.ranks.first()) settings.quiet = true;
   check_inputs(settings);
   if (group.ranks.first()) check_outputs(settings);
-  if (group.ranks.first() && !settings.frames.film.empty()) find_encoder();
   set_log_level(settings.quiet, settings.verbose && group.ranks.first());
   install_signal_handlers();
   // Errors without a file name get the scene's name.

@@ -9,7 +9,6 @@
 #include "apps/film_sky.h"
 #include "apps/frame_groups.h"
 #include "apps/frame_settings.h"
-#include "apps/preview_video.h"
 #include "apps/render_run.h"
 #include "apps/reports/frame_report.h"
 #include "apps/settings/camera_names.h"
@@ -42,8 +41,6 @@ int RenderRun::render_frames(scene::SceneFile& file, scene::Scene& scene) {
   int code = kDone;
   for (const RenderSettings& of_camera : pictures_of(settings_, scene)) {
     whole_ = of_camera;
-    failed_frames_.clear();
-    film_frames_ = 0;
     const int ended = render_film(file, scene);
     if (ended >= kSignalBase) return ended;
     if (ended != kDone) code = ended;
@@ -56,7 +53,10 @@ int RenderRun::render_film(scene::SceneFile& file, scene::Scene& scene) {
   const int groups = whole_.frames.groups;
   const std::vector<int> all = whole_.frames.range->numbers();
   const std::set<int> existing = existing_frames(all);
-  if (existing.size() == all.size()) return end_film(all, 0, 0.0);
+  if (existing.size() == all.size()) {
+    end_frames(0, 0.0);
+    return kDone;
+  }
   progress_.phase("build");
   const Clock::time_point begin = Clock::now();
   const std::string before = state_before();
@@ -87,9 +87,10 @@ int RenderRun::render_film(scene::SceneFile& file, scene::Scene& scene) {
     }
     if (number != 0) break;
   }
-  if (groups > 1) return end_groups(number, i, all, seconds_since(begin));
+  if (groups > 1) return end_groups(number, i, all.size(), seconds_since(begin));
   if (number != 0) return stop_frames(number, i, frames.size());
-  return end_film(all, frames.size(), seconds_since(begin));
+  end_frames(frames.size(), seconds_since(begin));
+  return kDone;
 }
 
 renderer::Renderer RenderRun::make_renderer(scene::SceneFile& file, scene::Scene& scene) {
@@ -97,8 +98,7 @@ renderer::Renderer RenderRun::make_renderer(scene::SceneFile& file, scene::Scene
   file.show(scene, whole_.frames.seconds(0));
   shown_frame_.reset();
   settings_ = settings_of_frame(whole_, 0);
-  const bool displayed = shows_on_a_screen(whole_.outputs) || !whole_.frames.film.empty();
-  const bool measured = !whole_.exposure && displayed;
+  const bool measured = !whole_.exposure && shows_on_a_screen(whole_.outputs);
   renderer::Renderer renderer(scene, measured ? measuring_options(settings_.render) : settings_.render,
                               group_.ranks);
   shown_frame_ = 0;
@@ -253,32 +253,7 @@ void RenderRun::write_state(const renderer::Renderer& renderer, int frame) {
 
 void RenderRun::note_failed_frame(int frame) {
   if (!failed_frame_) failed_frame_ = std::current_exception();
-  failed_frames_.insert(frame);
   warn(fmt::format("frame {} failed: {}", frame, describe_current_exception().message));
-}
-
-int RenderRun::make_film(std::vector<int> frames) {
-  if (whole_.frames.film.empty()) return 0;
-  // The file of a frame that failed is an older one.
-  std::erase_if(frames, [&](int frame) { return failed_frames_.contains(frame); });
-  progress_.phase("film");
-  try {
-    film_frames_ = write_film(whole_, frames,
-                              {.progress = [&](std::size_t done) { progress_.film(done, frames.size()); },
-                               .stop = [] { return stop_signal() != 0; },
-                               .warn = [this](const std::string& text) { warn(text); }});
-  } catch (const std::exception&) {
-    if (failed_frame_) warn(describe_current_exception().message);
-    if (!failed_frame_) failed_frame_ = std::current_exception();
-    return 0;
-  }
-  if (film_frames_ > 0) return 0;
-  const int number = stop_signal();
-  progress_.clear();
-  print_notice(
-      fmt::format("stopped by signal {} after all frames; '{}' is not made", number, whole_.frames.film),
-      kSignalBase + number);
-  return number;
 }
 
 int RenderRun::stop_frames(int signal, std::size_t done, std::size_t count) {
@@ -290,50 +265,32 @@ int RenderRun::stop_frames(int signal, std::size_t done, std::size_t count) {
   return kSignalBase + signal;
 }
 
-int RenderRun::end_groups(int signal, std::size_t done, const std::vector<int>& frames, double seconds) {
+int RenderRun::end_groups(int signal, std::size_t done, std::size_t count, double seconds) {
   if (signal != 0) all_.stop_others(signal);
   FrameResults mine;
   // The ranks of a group have the same results, and rank 0 has printed its warnings.
   if (group_.ranks.first()) {
-    mine = {.signal = signal, .done = done, .failed = {failed_frames_.begin(), failed_frames_.end()}};
+    mine = {.signal = signal, .done = done};
     mine.failure = described(failed_frame_);
     if (!all_.ranks.first()) mine.warnings = {printed_warnings_.begin(), printed_warnings_.end()};
   }
   const FrameResults of_all = joined_results(all_.ranks, mine);
-  if (of_all.signal != 0) return stop_frames(of_all.signal, of_all.done, frames.size());
-  std::optional<Failure> failure = of_all.failure;
-  int code = kDone;
+  if (of_all.signal != 0) return stop_frames(of_all.signal, of_all.done, count);
   if (all_.ranks.first()) {
     for (const std::string& warning : of_all.warnings) warn(warning);
-    failed_frames_.insert(of_all.failed.begin(), of_all.failed.end());
-    const std::exception_ptr before = failed_frame_;
-    if (const int stopped = make_film(frames); stopped != 0) code = kSignalBase + stopped;
-    if (failed_frame_ != before && failure) warn(described(failed_frame_)->message);
-    if (!failure) failure = described(failed_frame_);
-    if (code == kDone) end_frames(frames.size(), seconds);
+    end_frames(count, seconds);
   }
-  code = renderer::agreed(all_.ranks, code);
-  failure = shared_failure(all_.ranks, failure);
-  failed_frame_ = nullptr;  // it is reported here
-  if (code != kDone || !failure) return code;
-  print_failure(*failure);
-  return failure->code;
-}
-
-int RenderRun::end_film(const std::vector<int>& all, std::size_t rendered, double seconds) {
-  if (!group_.ranks.first()) return kDone;
-  if (const int stopped = make_film(all); stopped != 0) return kSignalBase + stopped;
-  end_frames(rendered, seconds);
-  return kDone;
+  renderer::agreed(all_.ranks, 0);  // what follows may end all ranks: rank 0 has reported by now
+  failed_frame_ = nullptr;          // it is reported here
+  if (!of_all.failure) return kDone;
+  print_failure(*of_all.failure);
+  return of_all.failure->code;
 }
 
 void RenderRun::end_frames(std::size_t count, double seconds) {
-  nlohmann::ordered_json json = {{"frames", count}, {"seconds", seconds}};
-  if (film_frames_ > 0) json["film_frames"] = film_frames_;
-  if (progress_.done(json) || settings_.quiet) return;
+  if (!group_.ranks.first()) return;
+  if (progress_.done({{"frames", count}, {"seconds", seconds}}) || settings_.quiet) return;
   print_status(frames_summary(count, seconds, report_));
-  if (film_frames_ > 0)
-    print_status(fmt::format("film      {} frames; {}\n", film_frames_, whole_.frames.film));
 }
 
 }  // namespace gatelight::apps

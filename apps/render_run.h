@@ -62,15 +62,11 @@ class RenderRun {
   /// The number of a signal that ended it, or 0.
   int make_frame(scene::SceneFile& file, scene::Scene& scene, renderer::Renderer& renderer, int frame);
   int stop_frames(int signal, std::size_t done, std::size_t count);
-  /// After the frames of each group: reports those of all, makes the film. Returns the exit code.
-  int end_groups(int signal, std::size_t done, const std::vector<int>& frames, double seconds);
-  /// After the frames of one process or group: makes the film and reports. Returns the exit code.
-  int end_film(const std::vector<int>& all, std::size_t rendered, double seconds);
+  /// After the frames of each group: reports those of all. Returns the exit code.
+  int end_groups(int signal, std::size_t done, std::size_t count, double seconds);
   void end_frames(std::size_t count, double seconds);
   /// Keeps a failure of one frame, so that the others are rendered.
   void note_failed_frame(int frame);
-  /// Makes the film of --preview-video; a failure of it is kept. The number of a signal that ended it, or 0.
-  int make_film(std::vector<int> frames);
 
   /// Sets the chosen integrator in the settings, which the reports show.
   void note_integrator(renderer::Integrator chosen);
@@ -107,11 +103,9 @@ class RenderRun {
   std::string bright_lights_;  ///< lights_from_watts()
   bool glare_reported_ = false;
   std::exception_ptr failed_output_;  ///< the last failure of a checkpoint or cache file
-  std::exception_ptr failed_frame_;   ///< the first one, or that of the film
-  std::set<int> failed_frames_;
-  std::optional<int> shown_frame_;  ///< by the renderer
-  int last_frame_ = 0;              ///< to be rendered
-  std::size_t film_frames_ = 0;     ///< frames in the film; 0: there is none
+  std::exception_ptr failed_frame_;   ///< the first one
+  std::optional<int> shown_frame_;    ///< by the renderer
+  int last_frame_ = 0;                ///< to be rendered
 };
 
 }  // namespace gatelight::apps

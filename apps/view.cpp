@@ -38,12 +38,12 @@ Examples:
 constexpr auto kPoll = std::chrono::milliseconds(100);
 
 /// Flags of `render` that make no sense for a picture in a window.
-constexpr std::array<std::string_view, 25> kWithout = {
-    "output",      "stats",      "progress",         "reproducible", "quiet",
-    "verbose",     "checkpoint", "checkpoint-every", "resume",       "cache-in",
-    "cache-out",   "time-limit", "max-error",        "frames",       "fps",
-    "turntable",   "shutter",    "preview-video",    "frame-groups", "train-time",
-    "cryptomatte", "region",     "view-file",        "temporal",     "skip-existing"};
+constexpr std::array<std::string_view, 24> kWithout = {
+    "output",    "stats",      "progress",         "reproducible", "quiet",
+    "verbose",   "checkpoint", "checkpoint-every", "resume",       "cache-in",
+    "cache-out", "time-limit", "max-error",        "frames",       "fps",
+    "turntable", "shutter",    "frame-groups",     "train-time",   "cryptomatte",
+    "region",    "view-file",  "temporal",         "skip-existing"};
 
 struct WindowSettings {
   RenderSettings render;

@@ -55,7 +55,7 @@ endif()
 gatelight_add_deb(gatelight NAME gatelight SECTION graphics
   DESCRIPTION "${summary}\n${description}${denoiser}"
   RECOMMENDS "gatelight-openimageio ${same_version}"
-  SUGGESTS ffmpeg xdg-utils libvulkan1)
+  SUGGESTS xdg-utils libvulkan1)
 # Apart, because OpenImageIO depends on more packages than all else together.
 gatelight_add_deb(openimageio NAME gatelight-openimageio SECTION graphics
   DESCRIPTION "${summary} (more formats of pictures)\n${description}\nOpenImageIO for the program: it reads and writes Radiance HDR, writes TIFF, scales\npictures for gatelight sweep, and converts colours by OpenColorIO."

@@ -30,7 +30,6 @@ constexpr Item kEnvironment[] = {
      "gatelight/oidn-*, "
      "where scripts/setup keeps it."},
     {"DISPLAY, WAYLAND_DISPLAY", "Without both of them `gatelight view` opens no browser."},
-    {"PATH", "Folders in which --preview-video finds the program ffmpeg."},
 };
 
 constexpr Item kMpiEnvironment[] = {

@@ -51,7 +51,7 @@ void replace_view(py::dict& keywords, const py::dict& view) {
 }
 
 /// Options that belong to the program.
-constexpr const char* kOfProgram[] = {"--preview-video", "--frame-groups", "--skip-existing"};
+constexpr const char* kOfProgram[] = {"--frame-groups", "--skip-existing"};
 
 }  // namespace
 

@@ -42,7 +42,6 @@ void name_files(RenderSettings& settings, const std::string& name) {
   const std::string camera = file_part(name);
   for (std::string& output : settings.outputs) output = replaced(output, camera);
   settings.stats = replaced(settings.stats, camera);
-  settings.frames.film = replaced(settings.frames.film, camera);
 }
 
 /// The camera of a single picture, as choose_camera() finds it.
@@ -63,7 +62,6 @@ void check_camera_names(const RenderSettings& settings) {
   };
   for (const std::string& output : settings.outputs) require("--output", output);
   if (settings.stats != "-") require("--stats", settings.stats);
-  require("--preview-video", settings.frames.film);
   const auto refuse = [&](const char* flag, const std::string& file) {
     if (!file.empty())
       throw UsageError(fmt::format("{}: '{}' belongs to one picture, expected one --camera", flag, file));

@@ -270,7 +270,6 @@ void complete_settings(RenderSettings& settings) {
   check_checkpoint(settings);
   check_frame_groups(settings);
   check_frame_names(settings);
-  check_film(settings);
   check_stdout(settings.outputs, settings.stats);
   check_camera_names(settings);
   check_file_names({&settings, 1});
@@ -302,7 +301,6 @@ void check_outputs(const RenderSettings& settings) {
   if (const std::string& cache = settings.render.cache.cache_out; !cache.empty())
     check_writable(first_name(cache));
   if (!settings.render.checkpoint.file.empty()) check_writable(settings.render.checkpoint.file);
-  if (!settings.frames.film.empty()) check_writable(settings.frames.film);
 }
 
 }  // namespace gatelight::apps

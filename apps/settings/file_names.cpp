@@ -58,7 +58,6 @@ void check_file_names(std::span<const RenderSettings> pictures) {
   for (const RenderSettings& picture : pictures) {
     for (const std::string& output : picture.outputs) names.write("--output", output);
     names.write("--stats", picture.stats);
-    names.write("--preview-video", picture.frames.film);
   }
   names.write("--cache-out", pictures.front().render.cache.cache_out, "--cache-in");
   names.write("--checkpoint", pictures.front().render.checkpoint.file);

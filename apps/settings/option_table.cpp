@@ -119,7 +119,7 @@ void add_load_options(OptionGroup& group, scene::LoadOptions& load) {
 }
 
 void add_frame_options(OptionGroup& group, FrameSettings& frames) {
-  auto& [range, fps, turntable, shutter, film, groups] = frames;
+  auto& [range, fps, turntable, shutter, groups] = frames;
   const auto add = [&](Option option) {
     const auto value = std::move(option.value);
     option.value = [value, &chosen = frames.range]() -> OptionValue {
@@ -149,10 +149,6 @@ void add_frame_options(OptionGroup& group, FrameSettings& frames) {
          return chosen.is_open() ? text_of(chosen) : OptionValue();
        },
        .read = [&chosen = shutter](const std::string& text) { chosen = parse_shutter("--shutter", text); }}));
-  group.add(in_recipe(not_in_sweep(any_word("preview-video", film, "FILE",
-                                            "Film of the frames at --fps, .mp4, .mkv, .mov, .webm or .gif, "
-                                            "made at the end by an installed ffmpeg")),
-                      InRecipe::never));
   group.add(in_recipe(not_in_sweep(number("frame-groups", groups, kGroups, "N",
                                           "Groups of the ranks of gatelight-mpi: each renders every N-th "
                                           "frame; only where frames do not depend on each other")),

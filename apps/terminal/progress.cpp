@@ -172,15 +172,6 @@ bool ProgressReporter::frame_done(int frame, const nlohmann::ordered_json& summa
   return true;
 }
 
-void ProgressReporter::film(std::size_t done, std::size_t count) {
-  const std::lock_guard lock(mutex_);
-  if (mode_ == ProgressMode::none || !due(done == count)) return;
-  if (mode_ == ProgressMode::bar) return show_line(fmt::format("film, {} of {} frames", done, count));
-  print_json_line({{"event", "progress"},
-                   {"phase", "film"},
-                   {"fraction", static_cast<double>(done) / static_cast<double>(count)}});
-}
-
 double ProgressReporter::eta_of_frames() const {
   if (frame_->done == 0) return -1.0;
   const double each =

@@ -58,8 +58,6 @@ class ProgressReporter : public ProgressLine {
   void begin_frame(int frame, std::size_t done, std::size_t count);
   /// Reports that a frame is written, as JSON. Returns false in other modes.
   bool frame_done(int frame, const nlohmann::ordered_json& summary);
-  /// Reports how many of the frames a film has so far.
-  void film(std::size_t done, std::size_t count);
   /// Reports that the files are written, as JSON. Returns false in other modes, where the caller prints text.
   bool done(const nlohmann::ordered_json& summary);
 

@@ -67,7 +67,7 @@ class Options(unittest.TestCase):
         renderer.render()
 
     def test_options_of_the_program_are_refused(self):
-        for options in (dict(frame_groups=2), dict(preview_video="a.mp4")):
+        for options in (dict(frame_groups=2), dict(skip_existing=True)):
             with self.assertRaises(gatelight.Error) as caught:
                 gatelight.render(lit_square(), **SMALL, **options)
             self.assertEqual(caught.exception.option, next(iter(options)))

@@ -85,7 +85,6 @@ class Options(TypedDict, total=False):
     fps: Value
     turntable: Value
     shutter: Value
-    preview_video: Value
     frame_groups: Value
     integrator: Value
     max_depth: Value

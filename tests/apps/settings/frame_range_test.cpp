@@ -86,11 +86,6 @@ TEST(FrameFlags, ExcludeWhatHasNoMeaningWithThem) {
   tests::expect_message(refused({"--frames", "0:3", "--time", "1"}), {"--time", "--frames"});
   tests::expect_message(refused({"--frames", "0:3"}), {"--output", "%04d"});
   tests::expect_message(refused({"--frames", "4", "--camera", "all"}), {"--output", "{camera}"});
-  tests::expect_message(refused({"--preview-video", "a.mp4"}), {"--preview-video", "--frames"});
-  tests::expect_message(refused({"--frames", "4", "--preview-video", "a.avi"}),
-                        {"--preview-video", "a.avi", ".mp4"});
-  tests::expect_message(refused({"--frames", "4", "--preview-video", "a%d.mp4"}),
-                        {"--preview-video", "a%d.mp4"});
   const auto groups = [&](std::initializer_list<const char*> flags) {
     std::vector<const char*> all = {"--turntable", "4", "--frame-groups", "3"};
     all.insert(all.end(), flags);
