@@ -203,7 +203,7 @@ int parse(int argc, const char* const* argv, bool runs, const RankGroup& group) 
   root.fallthrough();
   root.formatter(make_help_formatter());
   const std::shared_ptr<const ConfigFile> config = accept_config_file(root);
-  std::vector<Subcommand> subcommands = {
+  const std::vector<Subcommand> subcommands = {
       add_render_command(root, std::vector<std::string>(argv, argv + argc), group),
       add_compare_command(root),
       add_info_command(root),
@@ -213,7 +213,6 @@ int parse(int argc, const char* const* argv, bool runs, const RankGroup& group) 
       add_sweep_command(root, std::vector<std::string>(argv, argv + argc)),
       add_completion_command(root),
   };
-  subcommands.push_back(add_manual_command(root, subcommands));
   if (runs && wants_completion(argc, argv)) {
     const std::vector<std::string> words(argv + 3, argv + argc);
     write_text("-", text_of(complete(describe_program(root, subcommands), words)));

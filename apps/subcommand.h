@@ -20,7 +20,7 @@ struct Subcommand {
   std::function<int()> run;        ///< called after parsing; returns the exit code, or throws
   std::set<std::string> common{};  ///< flags of the short help, without their dashes; empty: all
   bool of_ranks = false;           ///< several ranks may run it together
-  std::vector<Option> options{};   ///< its flags, for manual pages and completion
+  std::vector<Option> options{};   ///< its flags, for completion
 };
 
 Subcommand add_render_command(CLI::App& root, const std::vector<std::string>& command,
@@ -32,7 +32,5 @@ Subcommand add_denoise_command(CLI::App& root);
 Subcommand add_view_command(CLI::App& root);
 Subcommand add_sweep_command(CLI::App& root, const std::vector<std::string>& command);
 Subcommand add_completion_command(CLI::App& root);
-/// The pages of the other subcommands too, which must outlive it.
-Subcommand add_manual_command(CLI::App& root, const std::vector<Subcommand>& others);
 
 }  // namespace gatelight::apps
