@@ -1,6 +1,6 @@
 #pragma once
 
-#include "apps/rank_group.h"
+#include "apps/ranks/rank_group.h"
 
 namespace gatelight::apps {
 

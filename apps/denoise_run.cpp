@@ -7,12 +7,14 @@
 
 #include <algorithm>
 #include <cctype>
-#include <exception>
 #include <filesystem>
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "apps/job/film_exposure.h"
+#include "apps/job/finished_picture.h"
+#include "apps/job/frame_settings.h"
 #include "apps/reports/overflow_warning.h"
 #include "apps/reports/recipe.h"
 #include "apps/settings/file_names.h"
@@ -21,6 +23,7 @@
 #include "apps/settings/option_table.h"
 #include "apps/settings/picture_options.h"
 #include "apps/settings/picture_output.h"
+#include "apps/settings/unused_flags.h"
 #include "apps/terminal/errors.h"
 #include "apps/terminal/log.h"
 #include "apps/terminal/signals.h"
@@ -123,13 +126,13 @@ class DenoiseRun {
     renderer::Denoiser denoiser(oidn, threads, whole_.render.memory_limit_bytes);
     name_ = fmt::format("Open Image Denoise {}", oidn.version);
     if (!frames_.empty()) choose_exposure();
-    const std::size_t count = std::max<std::size_t>(frames_.size(), 1);
-    for (std::size_t i = 0; i < count; ++i) {
-      if (!frames_.empty()) progress_.begin_frame(frames_[i], i, count);
-      if (!finish(settings_of(i), denoiser, arena)) {
+    const std::vector<DenoiseSettings> all = pictures();
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      if (!frames_.empty()) progress_.begin_frame(frames_[i], i, all.size());
+      if (!finish(all[i], denoiser, arena)) {
         progress_.clear();
-        const std::string done =
-            frames_.empty() ? "nothing was written" : fmt::format("{} of {} frames were written", i, count);
+        const std::string done = frames_.empty() ? "nothing was written"
+                                                 : fmt::format("{} of {} frames were written", i, all.size());
         print_notice(fmt::format("stopped by signal {}; {}", stop_signal(), done),
                      kSignalBase + stop_signal());
         return kSignalBase + stop_signal();
@@ -147,20 +150,14 @@ class DenoiseRun {
     if (whole_.frames || has_frame_place(whole_.input)) find_frames();
     check_stdout(whole_.outputs);
     FileNames names;
-    for (std::size_t i = 0; i < std::max<std::size_t>(frames_.size(), 1); ++i)
-      names.read("INPUT", settings_of(i).input);
-    for (const std::string& output : whole_.outputs) {
-      if (frames_.empty())
-        refuse_frame_place("--output", output);
-      else
-        require_frame_place("--output", output);
+    const std::vector<DenoiseSettings> all = pictures();
+    for (const DenoiseSettings& picture : all) names.read("INPUT", picture.input);
+    for (const std::string& output : whole_.outputs)
+      frames_.empty() ? refuse_frame_place("--output", output) : require_frame_place("--output", output);
+    for (const DenoiseSettings& picture : all) {
+      for (const std::string& output : picture.outputs) names.write("--output", output);
     }
-    for (std::size_t i = 0; i < std::max<std::size_t>(frames_.size(), 1); ++i) {
-      for (const std::string& output : settings_of(i).outputs) {
-        names.write("--output", output);
-        if (i == 0) check_picture_output(output);
-      }
-    }
+    for (const std::string& output : all.front().outputs) check_picture_output(output);
     check_display(whole_.image.display);
   }
 
@@ -177,36 +174,36 @@ class DenoiseRun {
     }
   }
 
-  /// The settings of the i-th frame, or of the picture.
-  DenoiseSettings settings_of(std::size_t i) const {
+  DenoiseSettings settings_of(int frame) const {
     DenoiseSettings settings = whole_;
-    if (frames_.empty()) return settings;
-    settings.input = name_of_frame(whole_.input, frames_[i]);
-    for (std::string& output : settings.outputs) output = name_of_frame(output, frames_[i]);
+    settings.input = name_of_frame(whole_.input, frame);
+    for (std::string& output : settings.outputs) output = name_of_frame(output, frame);
     return settings;
   }
+  /// The settings of each frame, or of the picture.
+  std::vector<DenoiseSettings> pictures() const {
+    std::vector<DenoiseSettings> pictures;
+    for (const int frame : frames_) pictures.push_back(settings_of(frame));
+    if (frames_.empty()) pictures.push_back(whole_);
+    return pictures;
+  }
 
-  /// One exposure for all frames: the median of that of a few, without black ones.
+  /// One exposure for all frames, by the light of a few.
   void choose_exposure() {
-    constexpr std::size_t kMeasured = 5;
-    const bool shown = std::any_of(
-        whole_.outputs.begin(), whole_.outputs.end(),
-        [](const std::string& output) { return output_format(output) != renderer::ImageFormat::exr; });
-    if (whole_.exposure || !shown) return;
+    if (whole_.exposure || !shows_on_a_screen(whole_.outputs)) return;
     std::vector<float> stops;
-    for (std::size_t i = 0; i < std::min(kMeasured, frames_.size()); ++i) {
-      DenoiseSettings settings = settings_of(i * frames_.size() / std::min(kMeasured, frames_.size()));
+    for (const int frame : sampled_frames(frames_)) {
+      DenoiseSettings settings = settings_of(frame);
       const renderer::Picture picture = read(settings);
       apply_recipe(picture, given_, settings);
       if (settings.exposure) {
         whole_.exposure = settings.exposure;
         return;
       }
-      const float suitable = renderer::auto_exposure(picture);
-      if (suitable != 0.0f) stops.push_back(suitable);  // 0: black, or of no consequence
+      if (const std::optional<float> suitable = renderer::exposure_of_light(picture))
+        stops.push_back(*suitable);
     }
-    std::sort(stops.begin(), stops.end());
-    whole_.exposure = stops.empty() ? 0.0f : stops[stops.size() / 2];
+    whole_.exposure = common_exposure(stops);
   }
 
   renderer::Picture read(const DenoiseSettings& settings) const {
@@ -255,15 +252,7 @@ class DenoiseRun {
     if (const std::string text = overflow_warning(picture, settings.outputs, settings.image);
         !text.empty() && !settings.quiet)
       log_warning(text);
-    std::exception_ptr first_error;
-    for (const std::string& output : settings.outputs) {
-      try {
-        write_picture(picture, output, settings.image);
-      } catch (...) {
-        if (!first_error) first_error = std::current_exception();
-      }
-    }
-    if (first_error) std::rethrow_exception(first_error);
+    write_pictures(picture, settings.outputs, settings.image);
   }
 
   void report() const {

@@ -3,8 +3,8 @@
 #include <memory>
 #include <new>
 
-#include "apps/frame_groups.h"
-#include "apps/render_run.h"
+#include "apps/ranks/frame_groups.h"
+#include "apps/render/render_run.h"
 #include "apps/settings/complete_settings.h"
 #include "apps/settings/flags.h"
 #include "apps/settings/option_table.h"
@@ -44,7 +44,7 @@ int run_render(RenderSettings settings, const std::vector<std::string>& command,
   install_signal_handlers();
   // Errors without a file name get the scene's name.
   try {
-    return RenderRun(settings, command, own_group(settings.frames.groups, group), group).run();
+    return render(settings, command, own_group(settings.frames.groups, group), group);
   } catch (const TrainingDiverged& error) {
     throw TrainingDiverged(fmt::format("{}: {}", settings.scene, error.what()));
   } catch (const NumericalError& error) {

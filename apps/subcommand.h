@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/rank_group.h"
+#include "apps/ranks/rank_group.h"
 #include "apps/settings/option.h"
 
 namespace CLI {

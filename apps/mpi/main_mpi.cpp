@@ -8,7 +8,7 @@
 
 #include "apps/command_line.h"
 #include "apps/mpi/mpi_ranks.h"
-#include "apps/rank_group.h"
+#include "apps/ranks/rank_group.h"
 #include "apps/terminal/errors.h"
 #include "apps/terminal/signals.h"
 #include "apps/terminal/terminal.h"

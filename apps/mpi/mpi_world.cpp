@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "apps/rank_group.h"
+#include "apps/ranks/rank_group.h"
 #include "base/errors.h"
 
 namespace gatelight::apps {

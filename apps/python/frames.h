@@ -6,11 +6,10 @@
 #include <memory>
 #include <vector>
 
+#include "apps/job/frame_sequence.h"
 #include "apps/python/picture_data.h"
 #include "apps/python/scene_data.h"
 #include "apps/python/waiting.h"
-#include "apps/settings/render_settings.h"
-#include "renderer/render.h"
 
 namespace gatelight::python {
 
@@ -26,16 +25,15 @@ class Frames {
 
  private:
   void begin(Unfinished unfinished, Waiting& waiting);
-  /// Shows the scene, or the renderer too.
-  void show_scene(int frame);
-  void show(int frame);
+  /// The next picture, without the interpreter's lock. Null where `stop` returned true.
+  PicturePointer make(int frame, Waiting& waiting);
 
   ScenePointer scene_;
-  apps::RenderSettings whole_;
+  apps::RenderSettings settings_;
   std::vector<int> frames_;
   std::size_t next_ = 0;
-  scene::Scene shown_;  ///< outlives renderer_
-  std::unique_ptr<renderer::Renderer> renderer_;
+  scene::Scene shown_;  ///< outlives sequence_
+  std::unique_ptr<apps::FrameSequence> sequence_;
   pybind11::object progress_;
   pybind11::object stop_;
 };

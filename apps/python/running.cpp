@@ -4,18 +4,16 @@
 
 #include <utility>
 
+#include "apps/job/finished_picture.h"
 #include "apps/python/keywords.h"
 #include "apps/python/waiting.h"
-#include "apps/reports/recipe.h"
 #include "apps/settings/complete_settings.h"
-#include "apps/settings/picture_output.h"
 #include "apps/settings/show_well.h"
 #include "apps/terminal/terminal.h"
 #include "apps/terminal/text.h"
 #include "base/clock.h"
 #include "base/errors.h"
 #include "renderer/denoise/oidn_library.h"
-#include "renderer/image/auto_exposure.h"
 #include "renderer/settings/resolved_options.h"
 
 namespace gatelight::python {
@@ -86,22 +84,14 @@ apps::RenderSettings settings_for(const SceneData& scene, const py::dict& keywor
 
 PicturePointer finish_picture(renderer::Picture picture, const renderer::RenderStatistics& statistics,
                               const apps::RenderSettings& settings, apps::RunReport report) {
-  if (!statistics.device_lost.empty()) throw DeviceLost(statistics.device_lost);
-  if (!statistics.cache.diverged.empty()) throw TrainingDiverged(statistics.cache.diverged);
+  apps::require_good_end(statistics, false);
   auto data = std::make_shared<PictureData>();
-  data->image = settings.image;
-  if (!settings.exposure) data->image.display.exposure = renderer::auto_exposure(picture);
   report.statistics = statistics;
-  report.exposure = data->image.display.exposure;
-  for (const std::string& warning : statistics.warnings) report.warnings.push_back(apps::with_flags(warning));
-  if (const std::string& why = statistics.denoise_failure; !why.empty())
-    report.warnings.push_back(fmt::format("the picture keeps its noise: {}", why));
-  if (statistics.nonfinite > 0)
-    report.warnings.push_back(
-        fmt::format("{} samples were not finite and are left out", statistics.nonfinite));
-  picture.metadata.merge(apps::make_recipe(settings, report.command, statistics, report.total_seconds));
+  for (const std::vector<std::string>& more : {statistics.warnings, apps::warnings_of(statistics)})
+    report.warnings.insert(report.warnings.end(), more.begin(), more.end());
+  data->image = apps::finish_picture(picture, settings, statistics, report.total_seconds, report);
   data->picture = std::move(picture);
-  for (const std::string& output : settings.outputs) apps::write_picture(data->picture, output, data->image);
+  apps::write_pictures(data->picture, settings.outputs, data->image);
   data->statistics = apps::stats_json(settings, report);
   data->warnings = report.warnings;
   if (!settings.stats.empty()) apps::write_text(settings.stats, data->statistics);
@@ -150,7 +140,7 @@ PicturePointer Running::render(const py::object& progress, const py::object& sto
     has_new_options_ = false;
     apps::RenderSettings settings = settings_;
     if (settings.render.choose_integrator) renderer::use_integrator(settings.render, renderer_->integrator());
-    for (const std::string& warning : built_->warnings) report.warnings.push_back(apps::with_flags(warning));
+    report.warnings = built_->warnings;
     renderer::Picture made = renderer_->render(waiting.callbacks());
     report.total_seconds = seconds_since(start);
     picture = finish_picture(std::move(made), renderer_->statistics(), settings, report);

@@ -1,4 +1,4 @@
-#include "apps/rank_checks.h"
+#include "apps/ranks/rank_checks.h"
 
 #include <fmt/format.h>
 

@@ -12,9 +12,12 @@ namespace gatelight::apps {
 /// its light and view; neither its size nor its seed, but its aspect ratio.
 renderer::RenderOptions measuring_options(renderer::RenderOptions options);
 
-/// In stops, for rank 0: the mean of those that suit the frames (auto_exposure()), each at most two stops
-/// from their median. Black frames do not count; 0 where all are black. `renderer` has measuring_options();
-/// `show` shows it a frame.
+/// One exposure in stops for frames that suit these ones: their mean, each at most two stops from their
+/// median; 0 without any.
+float common_exposure(std::vector<float> stops);
+
+/// common_exposure() of the frames that are not black, for rank 0. `renderer` has measuring_options(); `show`
+/// shows it a frame.
 float film_exposure(renderer::Renderer& renderer, const std::vector<int>& frames,
                     const std::function<void(int frame)>& show, const renderer::Callbacks& callbacks);
 

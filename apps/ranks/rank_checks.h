@@ -1,7 +1,7 @@
 #pragma once
 // Checks and choices that the ranks make together before anything is built.
 
-#include "apps/rank_group.h"
+#include "apps/ranks/rank_group.h"
 #include "apps/settings/render_settings.h"
 #include "scene/scene.h"
 

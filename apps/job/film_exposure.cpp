@@ -1,8 +1,9 @@
-#include "apps/film_exposure.h"
+#include "apps/job/film_exposure.h"
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "renderer/image/auto_exposure.h"
 #include "renderer/settings/resolved_options.h"
@@ -37,9 +38,18 @@ renderer::RenderOptions measuring_options(renderer::RenderOptions options) {
   return options;
 }
 
+float common_exposure(std::vector<float> stops) {
+  if (stops.empty()) return 0.0f;
+  std::sort(stops.begin(), stops.end());
+  const double median = 0.5 * (stops[(stops.size() - 1) / 2] + stops[stops.size() / 2]);
+  double sum = 0.0;
+  for (const double one : stops) sum += std::clamp(one, median - kFarthest, median + kFarthest);
+  return static_cast<float>(std::round(10.0 * sum / static_cast<double>(stops.size())) / 10.0);
+}
+
 float film_exposure(renderer::Renderer& renderer, const std::vector<int>& frames,
                     const std::function<void(int frame)>& show, const renderer::Callbacks& callbacks) {
-  std::vector<double> stops;
+  std::vector<float> stops;
   for (const int frame : frames) {
     show(frame);
     const renderer::Picture picture = renderer.render(callbacks);
@@ -47,12 +57,7 @@ float film_exposure(renderer::Renderer& renderer, const std::vector<int>& frames
     if (const std::optional<float> suitable = renderer::exposure_of_light(picture))
       stops.push_back(*suitable);
   }
-  if (stops.empty()) return 0.0f;
-  std::sort(stops.begin(), stops.end());
-  const double median = 0.5 * (stops[(stops.size() - 1) / 2] + stops[stops.size() / 2]);
-  double sum = 0.0;
-  for (const double one : stops) sum += std::clamp(one, median - kFarthest, median + kFarthest);
-  return static_cast<float>(std::round(10.0 * sum / static_cast<double>(stops.size())) / 10.0);
+  return common_exposure(std::move(stops));
 }
 
 }  // namespace gatelight::apps

@@ -1,4 +1,4 @@
-#include "apps/frame_groups.h"
+#include "apps/ranks/frame_groups.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "apps/frame_settings.h"
+#include "apps/job/frame_settings.h"
 
 #include <algorithm>
 #include <cmath>
@@ -45,9 +45,8 @@ int last_frame_of_film(const RenderSettings& settings, const scene::Scene& scene
   return static_cast<int>(std::min(seconds * settings.frames.fps + kRounding, kMost));
 }
 
-std::vector<int> sampled_frames(const FrameList& list) {
+std::vector<int> sampled_frames(const std::vector<int>& frames) {
   constexpr std::size_t kSampled = 8;
-  const std::vector<int> frames = list.numbers();
   const std::size_t moments = std::min(frames.size(), kSampled);
   const std::size_t steps = std::max<std::size_t>(moments, 2) - 1;
   std::vector<int> sampled;

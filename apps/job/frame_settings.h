@@ -18,7 +18,7 @@ RenderSettings settings_of_frame(const RenderSettings& whole, int frame);
 int last_frame_of_film(const RenderSettings& settings, const scene::Scene& scene);
 
 /// Some of the frames, evenly spread: those that are scouted for a cache, or measured.
-std::vector<int> sampled_frames(const FrameList& frames);
+std::vector<int> sampled_frames(const std::vector<int>& frames);
 
 /// The frames beside this one whose places the layers of motion need.
 std::vector<int> frames_of_motion(const RenderSettings& settings, int frame);

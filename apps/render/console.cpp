@@ -1,0 +1,60 @@
+#include "apps/render/console.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "apps/terminal/errors.h"
+#include "apps/terminal/log.h"
+#include "apps/terminal/terminal.h"
+
+namespace gatelight::apps {
+namespace {
+
+double count_pixels(const renderer::RenderOptions& options) {
+  if (!options.region) return static_cast<double>(options.width) * options.height;
+  const auto [x0, y0, x1, y1] = *options.region;
+  return static_cast<double>(x1 - x0) * (y1 - y0);
+}
+
+}  // namespace
+
+Console::Console(const RenderSettings& settings, bool speaks)
+    : progress(settings.quiet ? ProgressMode::none : settings.progress, count_pixels(settings.render)),
+      quiet_(settings.quiet),
+      speaks_(speaks),
+      json_(settings.progress == ProgressMode::json) {}
+
+void Console::warn(const std::string& text) {
+  report.warnings.push_back(text);
+  if (!printed_.insert(text).second) return;
+  progress.clear();
+  log_warning(text);
+}
+
+void Console::warn(const std::vector<std::string>& texts) {
+  for (const std::string& text : texts) warn(text);
+}
+
+void Console::note(const char* about, const std::string& text) {
+  if (!speaks_ || quiet_) return;
+  progress.clear();
+  if (json_) {
+    print_json_line({{"event", "note"}, {"about", about}, {"message", text}});
+  } else {
+    print_status(fmt::format("{:<9} {}\n", about, text));
+  }
+}
+
+void Console::note_skipped(std::size_t skipped, std::size_t count) {
+  note("skipped",
+       fmt::format("{} of {}, which {} there already", skipped, count, skipped == 1 ? "is" : "are"));
+}
+
+int Console::note_signal(int signal, const std::string& text) {
+  progress.clear();
+  print_notice(fmt::format("stopped by signal {} {}", signal, text), kSignalBase + signal);
+  return kSignalBase + signal;
+}
+
+}  // namespace gatelight::apps

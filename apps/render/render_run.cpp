@@ -1,0 +1,69 @@
+#include "apps/render/render_run.h"
+
+#include <fmt/format.h>
+
+#include "apps/ranks/rank_checks.h"
+#include "apps/render/frames.h"
+#include "apps/render/stills.h"
+#include "apps/reports/glare_warning.h"
+#include "apps/reports/recipe.h"
+#include "apps/settings/unused_flags.h"
+#include "apps/terminal/log.h"
+#include "apps/terminal/text.h"
+#include "renderer/denoise/oidn_library.h"
+#include "scene/gltf.h"
+
+namespace gatelight::apps {
+namespace {
+
+/// With the time of a still in the middle of its shutter.
+scene::LoadOptions load_options(const RenderSettings& settings) {
+  scene::LoadOptions options = settings.load;
+  const FrameSettings& frames = settings.frames;
+  if (!frames.range && options.time) *options.time += frames.shutter.middle() / frames.fps;
+  return options;
+}
+
+void note_loaded(Console& console, const RenderSettings& settings, const scene::Scene& scene) {
+  console.warn(scene.warnings);
+  if (settings.load.time && scene.animations.empty() && settings.frames.turntable == 0)
+    console.warn("the file has no animations: all times are alike");
+  if (!settings.verbose) return;
+  console.progress.clear();
+  log_detail(fmt::format("{}: {} triangles, {} instances, {} punctual lights", settings.scene,
+                         format_integer(scene::count_triangles(scene)), scene.instances.size(),
+                         scene.lights.size()));
+  log_detail(fmt::format("options: {}", dump_options(settings)));
+}
+
+}  // namespace
+
+int render(RenderSettings settings, const std::vector<std::string>& command, const RankGroup& group,
+           const RankGroup& all) {
+  const Clock::time_point start = Clock::now();
+  share_machines(settings, all);
+  Console console(settings, all.ranks.first());
+  console.report.command = command;
+  console.report.hosts = group.hosts;
+  // A scene may take long to load.
+  if (group.ranks.first() && settings.render.denoise.denoiser == renderer::DenoiserKind::oidn)
+    renderer::load_oidn(settings.render.denoise.library);
+  console.warn(unused_output_flags(settings));
+  console.progress.phase("load");
+  const Clock::time_point load_start = Clock::now();
+  scene::SceneFile file(settings.scene, load_options(settings));
+  scene::Scene scene = file.load();
+  console.report.load_seconds = seconds_since(load_start);
+  note_loaded(console, settings, scene);
+  if (const int number = signal_of(group); number != 0)
+    return note_signal_before_picture(console, number, settings.scene);
+  expect_equal_ranks(settings, scene, all);
+  const std::size_t memory = require_memory_of_ranks(settings, scene, all);
+  log_detail(fmt::format("memory needed{}, estimated: {}", all.ranks.is_single() ? "" : " by each rank",
+                         format_bytes(memory)));
+  PictureMaker maker(console, group, lights_from_watts(scene));
+  return settings.frames.range ? render_frames(settings, file, scene, {console, maker, group, all})
+                               : render_stills(settings, scene, {console, maker, group, all}, start);
+}
+
+}  // namespace gatelight::apps

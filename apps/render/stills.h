@@ -1,0 +1,23 @@
+#pragma once
+// The still pictures of one call of `gatelight render`: one for each camera that is asked for.
+
+#include "apps/render/picture_maker.h"
+
+namespace gatelight::apps {
+
+/// What the pictures of a call share.
+struct RenderCall {
+  Console& console;
+  PictureMaker& maker;
+  const RankGroup& group;  ///< the ranks that make pictures together
+  const RankGroup& all;
+};
+
+/// Says that a signal came before the first pass. Returns the exit code.
+int note_signal_before_picture(Console& console, int signal, const std::string& scene);
+
+/// `start`: from where the seconds of the first picture count. Returns the exit code.
+int render_stills(const RenderSettings& settings, const scene::Scene& scene, const RenderCall& call,
+                  Clock::time_point start);
+
+}  // namespace gatelight::apps
