@@ -12,9 +12,9 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "apps/job/film_exposure.h"
 #include "apps/job/finished_picture.h"
 #include "apps/job/frame_settings.h"
+#include "apps/job/sequence_exposure.h"
 #include "apps/reports/overflow_warning.h"
 #include "apps/reports/recipe.h"
 #include "apps/settings/file_names.h"

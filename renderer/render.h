@@ -24,7 +24,7 @@ struct Progress {
   int steps = 0;
   double loss = 0.0;
   int spp_done = 0;
-  int spp = 0;                  ///< kOpenSpp: time decides
+  int spp = 0;                  ///< kUnlimitedSpp: time decides
   double samples = 0.0;         ///< per pixel, with those of the pass that is under way
   std::optional<double> error;  ///< estimated, with max_error
   double fraction = 0.0;        ///< how much of the phase is done, in [0, 1]

@@ -86,9 +86,9 @@ void bake_transforms(Scene& scene, std::size_t copy_budget_triangles) {
     Instance& instance = scene.instances[i];
     const std::size_t m = static_cast<std::size_t>(instance.mesh);
     if (instance.baked || instance.moves || last_uses[m] != 1) return;
-    transform_mesh(scene.meshes[m], instance.transform, instance.mirrors);
+    transform_mesh(scene.meshes[m], instance.transform, instance.swaps_handedness);
     instance.transform = Affine::Identity();
-    instance.mirrors = false;
+    instance.swaps_handedness = false;
     instance.baked = true;
   });
   scene.bounds = compute_bounds(scene);

@@ -3,13 +3,13 @@
 #include <fmt/format.h>
 
 #include "scene/bake.h"
-#include "scene/doubled_lamps.h"
+#include "scene/coincident_emitters.h"
 
 namespace gatelight::scene {
 
 std::vector<int> finish_geometry(Scene& scene, bool bake) {
   if (bake) bake_transforms(scene);
-  std::vector<int> culled_copies = separate_doubled_lamps(scene);
+  std::vector<int> culled_copies = separate_coincident_emitters(scene);
   scene.bounds = compute_bounds(scene);
   return culled_copies;
 }

@@ -9,7 +9,7 @@
 namespace gatelight::scene {
 
 /// Bakes transforms (bake.h) if `bake`, separates doubled lamps, and sets Scene::bounds. Returns the
-/// materials of which culled copies were added (doubled_lamps.h).
+/// materials of which culled copies were added (coincident_emitters.h).
 std::vector<int> finish_geometry(Scene& scene, bool bake);
 
 /// Describes vertices that are too far away or not finite, by the box around them; empty where there are

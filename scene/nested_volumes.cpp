@@ -184,7 +184,7 @@ class EnclosedVolumes {
         surfaces.points.push_back((in_world ? Vec3(instance.transform * p) : p).cast<double>());
       for (const auto& [a, b, c] : mesh.triangles) {
         surfaces.triangles.push_back({first + a, first + b, first + c});
-        if (in_world && instance.mirrors)
+        if (in_world && instance.swaps_handedness)
           std::swap(surfaces.triangles.back()[1], surfaces.triangles.back()[2]);
       }
     }

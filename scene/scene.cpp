@@ -16,7 +16,7 @@ Vec3 world_normal(const Scene& scene, const Instance& instance, std::uint32_t pr
   const std::array<Vec3, 3> p = world_triangle(scene, instance, primitive);
   float twice_area = 0.0f;
   const Vec3 n = triangle_normal(p[0], p[1], p[2], twice_area);
-  return instance.mirrors ? Vec3(-n) : n;
+  return instance.swaps_handedness ? Vec3(-n) : n;
 }
 
 double world_area(const Scene& scene, const Instance& instance, std::uint32_t primitive) {

@@ -141,7 +141,7 @@ struct Instance {
   bool baked = false;                     ///< the mesh is in world space and no other instance uses it
   bool moves = false;                     ///< its transform or its vertices change with the time; never baked
   bool hidden = false;                    ///< invisible at this time
-  bool mirrors = false;                   ///< determinant < 0: front faces are clockwise in the mesh
+  bool swaps_handedness = false;          ///< determinant < 0: front faces are clockwise in the mesh
   /// The instances of one placed glTF mesh, one for each of its primitives, have the same number. Numbers
   /// grow along the walk through the nodes.
   int placement = -1;

@@ -2,8 +2,8 @@
 
 #include <utility>
 
-#include "apps/job/film_exposure.h"
 #include "apps/job/frame_settings.h"
+#include "apps/job/sequence_exposure.h"
 #include "renderer/distributed/ranks.h"
 #include "renderer/settings/resolved_options.h"
 
@@ -15,7 +15,7 @@ FrameSequence::FrameSequence(const RenderSettings& settings, const scene::Scene&
       show_time_(std::move(show_time)),
       ranks_(ranks),
       needs_exposure_(displayed && !settings.exposure),
-      film_sample_(sampled_frames(FrameList{{{0, last_frame_of_film(settings, scene)}}}.numbers())),
+      sample_(sampled_frames(FrameList{{{0, last_frame_of_animation(settings, scene)}}}.numbers())),
       renderer_(build(scene)) {
   shown_ = 0;
   choose_sky();
@@ -34,7 +34,7 @@ void FrameSequence::choose_sky() {
   if (!renderer_.soft_sky()) return;
   renderer_.keep_soft_sky({});
   bool sky = true;
-  for (const int frame : film_sample_) {
+  for (const int frame : sample_) {
     move_to(frame);
     sky = renderer_.soft_sky().value_or(true);
     if (!sky) break;
@@ -45,7 +45,7 @@ void FrameSequence::choose_sky() {
 void FrameSequence::measure_exposure(const std::function<bool()>& stop) {
   const renderer::RenderOptions options = settings_of_frame(settings_, 0).render;
   settings_.exposure =
-      film_exposure(renderer_, film_sample_, [this](int frame) { move_to(frame); }, {.stop = stop});
+      sequence_exposure(renderer_, sample_, [this](int frame) { move_to(frame); }, {.stop = stop});
   renderer_.set_options(options);
   move_to(0);
   needs_exposure_ = false;

@@ -17,9 +17,9 @@ class FrameSequence {
   using ShowTime = std::function<void(double seconds)>;
 
   /// Builds the renderer with frame 0, which decides what is chosen for the scene (the integrator) whichever
-  /// frames are rendered, and chooses one soft sky for the whole film. `displayed`: the frames are shown, and
-  /// need an exposure. `scene`, which `show_time` changes, and `ranks` must outlive it. Throws as Renderer's
-  /// constructor does.
+  /// frames are rendered, and chooses one soft sky for the whole animation. `displayed`: the frames are
+  /// shown, and need an exposure. `scene`, which `show_time` changes, and `ranks` must outlive it. Throws as
+  /// Renderer's constructor does.
   FrameSequence(const RenderSettings& settings, const scene::Scene& scene, ShowTime show_time, bool displayed,
                 renderer::Ranks& ranks);
 
@@ -28,10 +28,10 @@ class FrameSequence {
   const renderer::Renderer& renderer() const { return renderer_; }
 
   bool needs_exposure() const { return needs_exposure_; }
-  /// Measures one exposure for the whole film, in film_sample(). Call it before begin() where it is needed.
+  /// Measures one exposure for the whole animation. Call it before begin() where it is needed.
   void measure_exposure(const std::function<bool()>& stop);
-  /// The frames of the whole film by which its exposure and sky are chosen; the last one is its end.
-  const std::vector<int>& film_sample() const { return film_sample_; }
+  /// The frames by which the exposure and the sky of the animation are chosen; the last one is its end.
+  const std::vector<int>& sample() const { return sample_; }
 
   /// Makes the cache that the frames share.
   void begin();
@@ -54,7 +54,7 @@ class FrameSequence {
   ShowTime show_time_;
   renderer::Ranks& ranks_;
   bool needs_exposure_;
-  std::vector<int> film_sample_;
+  std::vector<int> sample_;
   std::optional<int> shown_;  ///< by the renderer
   renderer::Renderer renderer_;
 };

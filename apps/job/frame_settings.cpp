@@ -32,7 +32,7 @@ RenderSettings settings_of_frame(const RenderSettings& whole, int frame) {
   return settings;
 }
 
-int last_frame_of_film(const RenderSettings& settings, const scene::Scene& scene) {
+int last_frame_of_animation(const RenderSettings& settings, const scene::Scene& scene) {
   if (settings.frames.turntable > 0) return settings.frames.turntable - 1;
   const std::string& chosen = settings.load.animation;
   double seconds = 0.0;

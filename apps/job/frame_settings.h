@@ -13,9 +13,9 @@ renderer::CameraOptions camera_of_frame(const RenderSettings& settings, int fram
 /// The settings of a frame, from those of all frames.
 RenderSettings settings_of_frame(const RenderSettings& whole, int frame);
 
-/// The last frame of the film, which begins with frame 0: that of the turn of --turntable, else that of the
-/// end of the animations which are shown; 0 where there are none.
-int last_frame_of_film(const RenderSettings& settings, const scene::Scene& scene);
+/// The last frame of the animation, which begins with frame 0: that of the turn of --turntable, else that of
+/// the end of the animations which are shown; 0 where there are none.
+int last_frame_of_animation(const RenderSettings& settings, const scene::Scene& scene);
 
 /// Some of the frames, evenly spread: those that are scouted for a cache, or measured.
 std::vector<int> sampled_frames(const std::vector<int>& frames);

@@ -53,7 +53,7 @@ std::optional<Heartbeats::Lost> Heartbeats::step() {
   return std::nullopt;
 }
 
-void Heartbeats::say_goodbye() {
+void Heartbeats::announce_exit() {
   if (!leaving_) {
     for (const Peer& peer : peers_) send(peer.rank, true);
   }

@@ -29,7 +29,7 @@ class Heartbeats {
   std::optional<Lost> step();
 
   /// Sends the last heartbeats, which say that this rank needs no more messages.
-  void say_goodbye();
+  void announce_exit();
   bool all_said_goodbye() const;
 
  private:

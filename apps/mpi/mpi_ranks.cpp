@@ -29,7 +29,7 @@ constexpr double kStartTimes = 2.0;
 constexpr std::chrono::seconds kAllGathersAfterError(2);
 
 /// Returns a function that ends this process where other ranks do not answer; the launcher then ends those.
-/// Other ranks wait longer than rank 0 (patience()), so that rank 0 prints the line.
+/// Other ranks wait longer than rank 0 (start_timeout()), so that rank 0 prints the line.
 std::function<void()> give_up(const RankCallbacks& callbacks, const std::string& line) {
   return [&callbacks, line] {
     callbacks.on_fault(callbacks.lost_code, line);
@@ -37,7 +37,7 @@ std::function<void()> give_up(const RankCallbacks& callbacks, const std::string&
   };
 }
 
-double patience(double seconds) {
+double start_timeout(double seconds) {
   return seconds + std::min(rank_of_launcher(), 10);
 }
 
@@ -63,7 +63,7 @@ struct MpiRanks::Connection {
 };
 
 MpiRanks::MpiRanks(int* argc, char*** argv, Callbacks callbacks, double silence_seconds) {
-  const double start_seconds = patience(kStartTimes * silence_seconds);
+  const double start_seconds = start_timeout(kStartTimes * silence_seconds);
   {
     const Deadline deadline(
         start_seconds,
@@ -161,7 +161,7 @@ void MpiRanks::end() {
     wait_for(barrier);
   }
   mpi.ended = true;
-  const double seconds = patience(mpi.silence);
+  const double seconds = start_timeout(mpi.silence);
   const Deadline deadline(
       seconds, give_up(mpi.callbacks,
                        fmt::format("all is done, but some rank does not end within {:.0f} s", seconds)));

@@ -61,7 +61,7 @@ void ProgressThread::stop() {
   {
     const std::lock_guard lock(mpi_mutex());
     stopping_ = true;
-    heartbeats_.say_goodbye();
+    heartbeats_.announce_exit();
   }
   thread_.join();
 }

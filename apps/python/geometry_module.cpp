@@ -87,7 +87,7 @@ int material_index(const ScenePointer& scene, py::handle material) {
 
 void place(scene::Instance& instance, const Affine& transform) {
   instance.transform = transform;
-  instance.mirrors = transform.linear().cast<double>().determinant() < 0.0;
+  instance.swaps_handedness = transform.linear().cast<double>().determinant() < 0.0;
 }
 
 template <class Rows>

@@ -101,7 +101,7 @@ class FrameRun {
       console_.progress.phase("exposure");
       sequence.measure_exposure([] { return stop_signal() != 0; });
       const float exposure = *sequence.settings().exposure;
-      const std::vector<int>& sample = sequence.film_sample();
+      const std::vector<int>& sample = sequence.sample();
       console_.note("exposure",
                     fmt::format("{:.1f} EV by the light of the film, {} of its frames 0 to {}; --exposure "
                                 "{:.1f} keeps it",
@@ -117,7 +117,7 @@ class FrameRun {
     const renderer::RenderOptions& options = settings_.render;
     const bool cached = renderer::uses_cache(options.integrator);
     const bool carried = options.denoise.denoiser != renderer::DenoiserKind::none && options.denoise.temporal;
-    const int last = sequence.film_sample().back();
+    const int last = sequence.sample().back();
     const bool whole = existing.empty() && frames.front() <= 0 && frames.back() >= last - 1 &&
                        (frames.size() < 2 || common_step(frames) == 1);
     if (whole || last == 0 || (!cached && !carried)) return;

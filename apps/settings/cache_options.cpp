@@ -45,7 +45,7 @@ constexpr Requirement kSpread{[](const RenderOptions& o) { return o.cache.query_
                               "--query-at spread"};
 /// The view of the cache is at the first vertex, or its reference.
 constexpr Requirement kFinalView{[](const RenderOptions& o) {
-                                   return o.cache.view == CacheView::final ||
+                                   return o.cache.view == CacheOutput::final ||
                                           o.cache.query_at == QueryAt::primary ||
                                           o.cache.query_at == QueryAt::none;
                                  },
@@ -293,7 +293,7 @@ void add_shape_options(std::vector<Option>& table, CacheOptions& options) {
 
 void add_answer_options(std::vector<Option>& table, CacheOptions& options) {
   OptionGroup group{table, "Cache, answers"};
-  group.add(choice("cache-holds", options.holds,
+  group.add(choice("cache-holds", options.component,
                    "Reflected light that the cache stores: all, all but direct light of point, spot and "
                    "directional lights, or indirect light only"),
             {kNrc});
@@ -328,8 +328,8 @@ void add_cache_options(std::vector<Option>& table, CacheOptions& options) {
   [[maybe_unused]] const auto& [train_steps, train_seconds, batch, path_length, samples_per_point, source,
                                 samples_from_step, candidates, self_training, node_spacing, encoding, gate,
                                 hash_grid, memory_bytes, mlp, training, direction_input, normal_input,
-                                albedo_input, scout, holds, query_at, view, min_roughness, spread_threshold,
-                                bf16_queries, device, cache_in, cache_out] = options;
+                                albedo_input, scout, component, query_at, view, min_roughness,
+                                spread_threshold, bf16_queries, device, cache_in, cache_out] = options;
   const std::size_t others = table.size();
   add_learning_options(table, options);
   add_shape_options(table, options);

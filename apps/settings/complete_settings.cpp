@@ -162,7 +162,7 @@ void open_samples(RenderSettings& settings) {
   if (settings.given.contains("--spp") || (!timed && o.max_error <= 0.0)) return;
   if (!timed && uses_cache(o.integrator) && !o.cache.train_steps && o.cache.cache_in.empty())
     o.cache.train_steps = choose_training_steps(o, pixels_of(o));  // for the usual number of samples
-  o.spp = timed ? kOpenSpp : kMostForError;
+  o.spp = timed ? kUnlimitedSpp : kMostForError;
   o.spp_of_paths = 0;
 }
 
@@ -183,7 +183,7 @@ void adapt_cache(RenderSettings& settings) {
     }
     o.source = TrainingSource::camera;
   }
-  if (o.view == CacheView::cache && o.query_at != QueryAt::none) o.query_at = QueryAt::primary;
+  if (o.view == CacheOutput::cache && o.query_at != QueryAt::none) o.query_at = QueryAt::primary;
   // Occlusion is one number in [0, 1]: its loss needs no relative weight.
   if (settings.render.integrator == Integrator::nao && !settings.given.contains("--loss")) {
     o.training.loss = neural::Loss::l2;

@@ -238,8 +238,8 @@ std::vector<Option> picture_options(RenderOptions& options) {
   OptionGroup picture{table, "Picture"};
   picture.add(size_option(width, height));
   picture.add(region_option(region));
-  picture.add(common(
-      number("spp", spp, {1, kOpenSpp}, "N", "Samples per pixel; a limit with --time-limit or --max-error")));
+  picture.add(common(number("spp", spp, {1, kUnlimitedSpp}, "N",
+                            "Samples per pixel; a limit with --time-limit or --max-error")));
   picture.add(common(not_in_sweep(
       number("time-limit", time_limit_seconds, kNotNegative, "SECONDS",
              "Time of scouting, training, rendering and denoising together; it decides --spp and the "

@@ -28,7 +28,7 @@ const std::string kNoScene = "scene";
 
 ReferenceKind reference_kind(const renderer::RenderOptions& o) {
   if (o.integrator == Integrator::ao || o.integrator == Integrator::nao) return ReferenceKind::ao;
-  const bool bare = o.integrator == Integrator::nrc && o.cache.view == renderer::CacheView::cache;
+  const bool bare = o.integrator == Integrator::nrc && o.cache.view == renderer::CacheOutput::cache;
   return bare ? ReferenceKind::cache : ReferenceKind::path;
 }
 

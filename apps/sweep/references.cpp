@@ -161,8 +161,8 @@ RenderOptions reference_options(const RenderOptions& cell, ReferenceKind kind) {
     o.cache.train_steps = 0;
     o.cache.self_training.start_step = -1;
     o.cache.query_at = renderer::QueryAt::none;
-    o.cache.view = renderer::CacheView::cache;
-    o.cache.holds = cell.cache.holds;
+    o.cache.view = renderer::CacheOutput::cache;
+    o.cache.component = cell.cache.component;
     o.cache.min_roughness = cell.cache.min_roughness;
   }
   return o;

@@ -32,7 +32,7 @@ std::string measures(const renderer::Progress& progress, double samples_per_seco
     return fmt::format("  {}/{} steps{}", progress.steps_done, progress.steps, loss);
   }
   if (progress.phase == renderer::Phase::render) {
-    const std::string goal = progress.spp < renderer::kOpenSpp ? fmt::format("/{}", progress.spp) : "";
+    const std::string goal = progress.spp < renderer::kUnlimitedSpp ? fmt::format("/{}", progress.spp) : "";
     const std::string error =
         progress.error ? fmt::format("error {}  ", format_percent(*progress.error)) : "";
     return fmt::format("  {}{} spp  {}{}{}samples/s", progress.spp_done, goal, error,

@@ -60,15 +60,16 @@ class VulkanBackend final : public Backend {
 
  private:
   template <class F>
-  auto guarded(const char* deed, F&& body) const {
-    return translated(machine_->device().name(), deed, std::forward<F>(body));
+  auto translate_errors(const char* operation, F&& body) const {
+    return translated(machine_->device().name(), operation, std::forward<F>(body));
   }
   void describe_model();
   void submit_step(Submission& step, const TrainingBatch& batch);
   StepStatistics collect(Submission& step);
   void collect_oldest();
-  void ask(Submission& chunk, const QueryBatch& batch, const QueryOptions& options, std::size_t begin) const;
-  void answer(Submission& chunk, std::size_t begin, std::span<float> out) const;
+  void submit_query(Submission& chunk, const QueryBatch& batch, const QueryOptions& options,
+                    std::size_t begin) const;
+  void read_results(Submission& chunk, std::size_t begin, std::span<float> out) const;
   void abandon_chunks() const;
   Address packed_for_query(const QueryOptions& options, std::optional<PackedFor>& to_pack) const;
 
@@ -146,7 +147,7 @@ void VulkanBackend::start(const TrainingBatch& batch, Team*) {
   const std::uint64_t most = most_records(*model_, machine_->device().limits().longest_buffer);
   if (batch.points.size > most)
     throw BadConfiguration(fmt::format("batch: {} records, expected at most {}", batch.points.size, most));
-  guarded("training", [&] {
+  translate_errors("training", [&] {
     Submission& step = steps_[started_ % kSteps];
     if (started_ - collected_ == kSteps) collect_oldest();
     if (batch.points.size > 0) submit_step(step, batch);
@@ -155,7 +156,7 @@ void VulkanBackend::start(const TrainingBatch& batch, Team*) {
 }
 
 StepStatistics VulkanBackend::finish() {
-  if (finished_.empty() && started_ > collected_) guarded("training", [&] { collect_oldest(); });
+  if (finished_.empty() && started_ > collected_) translate_errors("training", [&] { collect_oldest(); });
   if (finished_.empty()) throw BadConfiguration("finish: no step was started");
   const StepStatistics statistics = finished_.front();
   finished_.pop_front();
@@ -224,14 +225,14 @@ StepStatistics VulkanBackend::collect(Submission& step) {
 
 void VulkanBackend::query(const QueryBatch& batch, const QueryOptions& options, std::span<float> out) const {
   check_batch(*model_, batch, out);
-  guarded("answering", [&] {
+  translate_errors("answering", [&] {
     abandon_chunks();
     query_seconds_ = {};
     const std::size_t chunks = (batch.size + kChunkPoints - 1) / kChunkPoints;
     for (std::size_t k = 0; k < chunks + kChunks; ++k) {
       Submission& chunk = chunks_[k % kChunks];
-      if (chunk.under_way) answer(chunk, (k - kChunks) * kChunkPoints, out);
-      if (k < chunks) ask(chunk, batch, options, k * kChunkPoints);
+      if (chunk.under_way) read_results(chunk, (k - kChunks) * kChunkPoints, out);
+      if (k < chunks) submit_query(chunk, batch, options, k * kChunkPoints);
     }
   });
 }
@@ -253,8 +254,8 @@ Address VulkanBackend::packed_for_query(const QueryOptions& options,
   return network_.query_forward();
 }
 
-void VulkanBackend::ask(Submission& chunk, const QueryBatch& batch, const QueryOptions& options,
-                        std::size_t begin) const {
+void VulkanBackend::submit_query(Submission& chunk, const QueryBatch& batch, const QueryOptions& options,
+                                 std::size_t begin) const {
   const Device& device = machine_->device();
   const std::size_t size = std::min(kChunkPoints, batch.size - begin);
   const std::size_t outputs = model_->config.mlp.outputs;
@@ -308,7 +309,7 @@ void VulkanBackend::ask(Submission& chunk, const QueryBatch& batch, const QueryO
   if (to_pack) packed_ = to_pack;
 }
 
-void VulkanBackend::answer(Submission& chunk, std::size_t begin, std::span<float> out) const {
+void VulkanBackend::read_results(Submission& chunk, std::size_t begin, std::span<float> out) const {
   chunk.under_way = false;
   wait_for(machine_->device(), chunk.fence);
   machine_->check();
@@ -322,7 +323,7 @@ void VulkanBackend::answer(Submission& chunk, std::size_t begin, std::span<float
 }
 
 ModelState VulkanBackend::export_state() const {
-  return guarded("reading the state", [&] {
+  return translate_errors("reading the state", [&] {
     ModelState state;
     for (std::vector<float>* array :
          {&state.parameters, &state.averages, &state.first_moments, &state.second_moments})
@@ -337,7 +338,7 @@ ModelState VulkanBackend::export_state() const {
 void VulkanBackend::import_state(const ModelState& state) {
   check_state(*model_, options_, state);
   check_state_numbers(state);
-  guarded("writing the state", [&] {
+  translate_errors("writing the state", [&] {
     abandon_chunks();
     features_.import_from(transfer_, state);
     network_.import_from(transfer_, state);

@@ -25,7 +25,7 @@ NamedTexts texts_of(const CacheMeaning& meaning) {
   if (options.integrator == Integrator::nao) {
     texts.push_back({"ao-distance", fmt::format("{}", ao_distance)});
   } else {
-    texts.push_back({"cache-holds", enum_name(options.cache.holds)});
+    texts.push_back({"cache-holds", enum_name(options.cache.component)});
     texts.push_back({"cache-roughness", fmt::format("{}", options.cache.min_roughness)});
   }
   return texts;

@@ -21,7 +21,7 @@ struct CacheMeaning {
   float ao_distance = 0.0f;  ///< metres, resolved
 };
 
-/// What a file has beside the cache: a frame's part (driver/frame_file.h).
+/// What a file has beside the cache: a frame's part (temporal/frame_file.h).
 struct OtherContent {
   std::vector<TensorView> tensors;
   Metadata metadata;

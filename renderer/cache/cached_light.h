@@ -20,14 +20,14 @@
 namespace gatelight::renderer {
 
 struct CachedLight {
-  CacheHolds holds = CacheHolds::no_delta;
+  CachedComponent component = CachedComponent::no_delta;
 
   /// Whether the wide lobes' share of a light sample is in H.
   bool light_sample(bool delta) const {
-    return holds == CacheHolds::all || (holds == CacheHolds::no_delta && !delta);
+    return component == CachedComponent::all || (component == CachedComponent::no_delta && !delta);
   }
   /// Whether the wide lobes' share of E, found by a direction of the BSDF, is in H.
-  bool emission() const { return holds != CacheHolds::indirect; }
+  bool emission() const { return component != CachedComponent::indirect; }
   // The wide lobes' share of S is always in H; light of the narrow lobes never is.
 };
 

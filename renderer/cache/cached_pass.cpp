@@ -38,7 +38,7 @@ CachedPass::CachedPass(const World& world, const PassContext& context, CacheSess
       context_(context),
       session_(session),
       // The view of the cache shows its answers everywhere, even where it was not trained.
-      stored_(context.options.cache.view == CacheView::cache ? StoredSurfaces() : session.stored()),
+      stored_(context.options.cache.view == CacheOutput::cache ? StoredSurfaces() : session.stored()),
       paths_(world, cached_paths_options(context.options), stored_),
       ao_(world, resolve_ao_distance(context.options.ao_distance, world.scene.bounds)),
       needs_error_(has(context.options.aovs, Aov::cache_error)),
@@ -47,7 +47,7 @@ CachedPass::CachedPass(const World& world, const PassContext& context, CacheSess
   plan_.guides = has(context.options.aovs, Aov::cache_radiance);
   plan_.max_depth = context.options.max_depth.value_or(kNoDepthLimit);
   plan_.min_depth = context.options.min_depth;
-  if (context.options.cache.view == CacheView::cache) {
+  if (context.options.cache.view == CacheOutput::cache) {
     if (plan_.query_at != QueryAt::none) plan_.query_at = QueryAt::primary;
     plan_.records = plan_.query_at == QueryAt::none;
   }
@@ -150,7 +150,7 @@ void CachedPass::finish_paths(Tile& tile) const {
   const std::span<const float> answers = tile.answers;
   if (plan_.guides && !tile.first_hits.empty()) tile.paths.write_guides(answers, tile.first_hits);
   tile.paths.resolve(answers, tile.radiance);
-  if (context_.options.cache.view == CacheView::cache) {
+  if (context_.options.cache.view == CacheOutput::cache) {
     // Paths without a record or an answer are black.
     const bool traced = plan_.query_at == QueryAt::none;
     const std::vector<std::int32_t>& at = traced ? tile.paths.first_records : tile.paths.first_queries;
@@ -171,7 +171,7 @@ void CachedPass::trace_occlusion(Tile& tile, CachedWorker& worker) const {
   paths.unstored_hits = 0;
   // Without storage one ray is traced, as in the reference.
   const auto ask = [&](std::size_t i, const Hit& hit, const Surface& surface, const Ray& ray) {
-    const std::uint32_t side = side_of(surface.front, world_.scene.instances[hit.instance].mirrors);
+    const std::uint32_t side = side_of(surface.front, world_.scene.instances[hit.instance].swaps_handedness);
     if (!stored_(neural::surface_index(hit.instance, side))) {
       ++paths.unstored_hits;
       return false;

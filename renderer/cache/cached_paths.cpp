@@ -38,7 +38,7 @@ StoredSurfaces::StoredSurfaces(const scene::Scene& scene, std::span<const neural
 }
 
 std::uint32_t CachedPaths::side_at(const Hit& hit, bool front) const {
-  return side_of(front, walk_.world.scene.instances[hit.instance].mirrors);
+  return side_of(front, context_.world.scene.instances[hit.instance].swaps_handedness);
 }
 
 CachedPaths::BlockKind CachedPaths::kind_of_end(const SurfaceMaterial& m) const {
@@ -46,10 +46,10 @@ CachedPaths::BlockKind CachedPaths::kind_of_end(const SurfaceMaterial& m) const 
     return roughness >= std::max(options_.min_roughness, kDeltaRoughness) && roughness <= 1.0f;
   };
   const bool coated = m.clearcoat > 0.0f;
-  if (is_wide(m.roughness) && (!coated || is_wide(m.clearcoat_roughness))) return kAnswers;
+  if (is_wide(m.roughness) && (!coated || is_wide(m.clearcoat_roughness))) return kCacheOnly;
   const bool has_wide = is_wide(m.roughness) || (coated && is_wide(m.clearcoat_roughness)) ||
                         (m.metallic < 1.0f && m.transmission < 1.0f) || (m.sheen_color > 0.0f).any();
-  return has_wide ? kSplits : kScatters;
+  return has_wide ? kCacheAndNarrow : kContinue;
 }
 
 bool CachedPaths::may_record(const Path& path, const PathPlan& plan) const {
@@ -79,28 +79,28 @@ void CachedPaths::add_emission(const Path& path, const Emission& found, PathBatc
   if (!found.any()) return;
   const Color emission = found.radiance * (found.weight * path.scale());
   if (path.vertex == kNone) {
-    batch.emission[path.index] += path.links.emission * emission;
+    batch.emission[path.index] += path.weights.emission * emission;
     return;
   }
   PathVertex& from = batch.vertices[static_cast<std::size_t>(path.vertex)];
-  from.direct += path.links.emission * emission;
+  from.direct += path.weights.emission * emission;
   if (from.record != kNone && options_.cached.emission())
-    batch.target(from.record) += path.links.cached * emission;
+    batch.target(from.record) += path.weights.cached * emission;
 }
 
 PathBlock* CachedPaths::scatter(std::uint32_t number, Path& path, const Ray& ray, const Hit& hit,
                                 const PathPlan& plan, PathBatch& batch, std::span<FirstHit> first_hits,
                                 Scratch& scratch) const {
   FirstHit* const first = first_hits.empty() ? nullptr : &first_hits[path.index];
-  if (!hit || path.looks_through(walk_, hit)) {
+  if (!hit || path.looks_through(context_, hit)) {
     if (first) record_background(path, *first);
-    const Emission sky = path.sky(walk_, ray.direction);
+    const Emission sky = path.sky(context_, ray.direction);
     add_emission(path, sky, batch);
     return nullptr;
   }
-  SurfaceInteraction m = path.intersect(walk_, ray, hit, plan.max_depth);
-  path.links *= m.passed;
-  if (first && path.surfaces == 0) *first = first_hit(hit, m.surface, walk_.world.scene.origin);
+  SurfaceInteraction m = path.intersect(context_, ray, hit, plan.max_depth);
+  path.weights *= m.passed;
+  if (first && path.surfaces == 0) *first = first_hit(hit, m.surface, context_.world.scene.origin);
   if (first) record_guide(path, m, *first);
   add_emission(path, m.emission, batch);
   if (m.ends) return nullptr;
@@ -119,57 +119,57 @@ PathBlock* CachedPaths::scatter(std::uint32_t number, Path& path, const Ray& ray
   const BlockKind kind = kind_of(path, m, kernels, plan);
   int min_depth = plan.min_depth;
   // Where a path ends in the cache, Russian roulette applies at every depth (narrow_roulette), or never.
-  if (kind != kScatters) min_depth = options_.cached.emission() ? path.depth : kNoDepthLimit;
+  if (kind != kContinue) min_depth = options_.cached.emission() ? path.depth : kNoDepthLimit;
   PathBlock& block = scratch.block_of(kind, kernels);
-  path.wait(walk_, m, number, min_depth, block);
+  path.enqueue(context_, m, number, min_depth, block);
   return &block;
 }
 
 CachedPaths::BlockKind CachedPaths::kind_of(const Path& path, const SurfaceInteraction& m, bool kernels,
                                             const PathPlan& plan) const {
-  if (path.emission_only || !ends_here(path, plan)) return kScatters;
-  if (!stored_(neural::surface_index(m.hit.instance, side_at(m.hit, m.surface.front)))) return kScatters;
+  if (path.emission_only || !ends_here(path, plan)) return kContinue;
+  if (!stored_(neural::surface_index(m.hit.instance, side_at(m.hit, m.surface.front)))) return kContinue;
   if (kernels) return kind_of_end(m.surface.material);
   const Bsdf bsdf = m.bsdf();
-  if (!bsdf.has_wide(options_.min_roughness)) return kScatters;
-  return bsdf.has_narrow(options_.min_roughness) ? kSplits : kAnswers;
+  if (!bsdf.has_wide(options_.min_roughness)) return kContinue;
+  return bsdf.has_narrow(options_.min_roughness) ? kCacheAndNarrow : kCacheOnly;
 }
 
 void CachedPaths::shade(PathBlock& block, const PathPlan& plan, PathBatch& batch,
                         std::span<FirstHit> first_hits, Scratch& scratch) const {
   const auto kind = static_cast<BlockKind>(scratch.kind_of(block));
-  const bool all_lobes = kind == kScatters || !options_.cached.emission();
+  const bool all_lobes = kind == kContinue || !options_.cached.emission();
   if (all_lobes) {
-    walk_.shading.scatter(block);
+    context_.shading.scatter(block);
   } else if (separate_delta_) {
-    walk_.shading.delta_light(block);
-  } else if (kind == kSplits) {
-    walk_.shading.scatter_narrow(block, narrow_roulette(plan));
+    context_.shading.delta_light(block);
+  } else if (kind == kCacheAndNarrow) {
+    context_.shading.scatter_narrow(block, narrow_roulette(plan));
   } else {
-    walk_.shading.albedo(block);
+    context_.shading.albedo(block);
   }
   const ShadingBlock& points = block.points;
   std::int32_t vertices[ShadingBlock::kWidth];
   for (int lane = 0; lane < points.count; ++lane) {
     Path& path = scratch.paths[scratch.path_of[block.path[lane]]];
     if (!first_hits.empty()) set_albedo(path, lane_color(points.albedo, lane), first_hits[path.index]);
-    if (kind == kScatters) {
+    if (kind == kContinue) {
       continue_from(path, block, lane, plan, batch, scratch);
       continue;
     }
     const SurfacePoint point =
         point_at(block, lane, scratch.hits[block.path[lane]],
-                 lane_color(kind == kSplits ? points.wide_albedo : points.albedo, lane));
-    vertices[lane] = ask(path, point, batch);
+                 lane_color(kind == kCacheAndNarrow ? points.wide_albedo : points.albedo, lane));
+    vertices[lane] = add_query_vertex(path, point, batch);
     const bool guides = seeks_guide(path, batch);
     if (guides) set_guide(path, point, true, vertices[lane], batch);
     if (all_lobes || separate_delta_)
       add_light(path, points, lane, false, guides, vertices[lane], plan, scratch);
     if (all_lobes && points.alive[lane])
-      follow_direct(path, block, lane, kind == kSplits, vertices[lane], scratch);
+      follow_direct(path, block, lane, kind == kCacheAndNarrow, vertices[lane], scratch);
   }
-  if (all_lobes || kind != kSplits) return;
-  if (separate_delta_) walk_.shading.scatter_narrow(block, narrow_roulette(plan));
+  if (all_lobes || kind != kCacheAndNarrow) return;
+  if (separate_delta_) context_.shading.scatter_narrow(block, narrow_roulette(plan));
   for (int lane = 0; lane < points.count; ++lane) {
     Path& path = scratch.paths[scratch.path_of[block.path[lane]]];
     if (!separate_delta_ || !points.light_is_delta[lane])
@@ -207,10 +207,11 @@ void CachedPaths::set_guide(const Path& path, const SurfacePoint& point, bool st
   if (query == kNone) batch.queries.push_back(point);
 }
 
-std::int32_t CachedPaths::ask(const Path& path, const SurfacePoint& point, PathBatch& batch) const {
+std::int32_t CachedPaths::add_query_vertex(const Path& path, const SurfacePoint& point,
+                                           PathBatch& batch) const {
   const auto index = static_cast<std::int32_t>(batch.vertices.size());
   PathVertex& v = batch.vertices.emplace_back(
-      PathVertex{path.vertex, path.index, path.links.scattered, path.links.cached});
+      PathVertex{path.vertex, path.index, path.weights.scattered, path.weights.cached});
   if (!worth_caching(point.albedo)) return index;
   v.reflectance = cache_reflectance(point.albedo) * path.scale();
   v.query = static_cast<std::int32_t>(batch.queries.size());
@@ -225,7 +226,7 @@ std::int32_t CachedPaths::add_vertex(Path& path, const SurfacePoint& point, bool
            path.scale() < 1.0f / kLeastScale;
   const auto index = static_cast<std::int32_t>(batch.vertices.size());
   PathVertex& v = batch.vertices.emplace_back(
-      PathVertex{path.vertex, path.index, path.links.scattered, path.links.cached});
+      PathVertex{path.vertex, path.index, path.weights.scattered, path.weights.cached});
   if (!record) return index;
   v.reflectance = cache_reflectance(point.albedo) * path.scale();
   v.record = static_cast<std::int32_t>(batch.records.size());
@@ -269,7 +270,7 @@ void CachedPaths::continue_from(Path& path, const PathBlock& block, int lane, co
 void CachedPaths::add_light(const Path& path, const ShadingBlock& p, int lane, bool record, bool guides,
                             std::int32_t vertex, const PathPlan& plan, Scratch& scratch) const {
   if (!(lane_color(p.direct, lane) > 0.0f).any()) return;
-  const Color passed = path.transmittance(walk_, p.shadow_length[lane]) * path.scale();
+  const Color passed = path.transmittance(context_, p.shadow_length[lane]) * path.scale();
   const Color direct = lane_color(p.direct, lane) * passed;
   const float weight =
       plan.contribution_threshold > 0.0f
@@ -301,17 +302,18 @@ void CachedPaths::follow_direct(Path& path, const PathBlock& block, int lane, bo
 }
 
 void CachedPaths::follow(Path& path, const PathBlock& block, int lane, const DirectionSample& sampled,
-                         const Links& links, std::int32_t vertex, Scratch& scratch) const {
+                         const VertexWeights& weights, std::int32_t vertex, Scratch& scratch) const {
   if (sampled.through_pane) {
     // Light from behind the pane belongs to the vertex before the pane, whose light samples pass it too.
-    path.links *= links.emission;
+    path.weights *= weights.emission;
   } else {
     path.vertex = vertex;
-    path.links = links;
+    path.weights = weights;
   }
   const std::uint32_t number = block.path[lane];
   Ray next;
-  if (path.advance(walk_, block, lane, sampled, scratch.hits[number], next)) scratch.go_on(number, next);
+  if (path.advance(context_, block, lane, sampled, scratch.hits[number], next))
+    scratch.push_next_ray(number, next);
 }
 
 void CachedPaths::trace(std::span<const PathStart> starts, std::span<const Hit> hits, const PathPlan& plan,
@@ -323,12 +325,12 @@ void CachedPaths::trace(std::span<const PathStart> starts, std::span<const Hit> 
   scratch.paths.resize(starts.size());
   scratch.rays.resize(starts.size());
   for (std::size_t i = 0; i < starts.size(); ++i) {
-    scratch.paths[i] = Path(walk_.world, starts[i], i);
+    scratch.paths[i] = Path(context_.world, starts[i], i);
     scratch.rays[i] = starts[i].sample.ray();
     if (!first_hits.empty()) first_hits[i] = {};
   }
   trace_waves(
-      walk_.world, hits, scratch, counts,
+      context_.world, hits, scratch, counts,
       [&](std::uint32_t number, Path& path, Ray& ray, const Hit& hit) {
         return scatter(number, path, ray, hit, plan, batch, first_hits, scratch);
       },

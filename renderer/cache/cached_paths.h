@@ -65,7 +65,7 @@ struct CachedPathsOptions {
 inline CachedPathsOptions cached_paths_options(const RenderOptions& options) {
   return {{options.direct, options.mis},
           options.max_transmission_depth.value_or(kNoDepthLimit),
-          {options.cache.holds},
+          {options.cache.component},
           options.cache.min_roughness,
           options.cache.spread_threshold};
 }
@@ -76,11 +76,11 @@ class CachedPaths {
 
   /// The world and `stored` must outlive the object.
   CachedPaths(const World& world, const CachedPathsOptions& options, const StoredSurfaces& stored)
-      : walk_(world, options.mis, options.max_transmission_depth),
+      : context_(world, options.mis, options.max_transmission_depth),
         options_(options),
         stored_(stored),
         separate_delta_(world.lights.has_delta() && !options.cached.light_sample(true)) {
-    walk_.shading.separate_wide(options.min_roughness);
+    context_.shading.separate_wide(options.min_roughness);
   }
 
   /// Traces the paths. `hits` is empty or has the nearest hit of each start's ray. `first_hits` is empty or
@@ -90,12 +90,12 @@ class CachedPaths {
              PathBatch& batch, std::span<FirstHit> first_hits, RayCounts& rays, Scratch& scratch) const;
 
  private:
-  struct Links;
+  struct VertexWeights;
   struct Path;
   struct Pending;
   /// The kinds of blocks: paths that end in the cache with all lobes, paths that end there with the wide
   /// lobes only, and paths that continue.
-  enum BlockKind : std::uint8_t { kAnswers, kSplits, kScatters };
+  enum BlockKind : std::uint8_t { kCacheOnly, kCacheAndNarrow, kContinue };
 
   PathBlock* scatter(std::uint32_t number, Path& path, const Ray& ray, const Hit& hit, const PathPlan& plan,
                      PathBatch& batch, std::span<FirstHit> first_hits, Scratch& scratch) const;
@@ -108,7 +108,7 @@ class CachedPaths {
   /// The point of a lane. wide_albedo: the albedo of the wide lobes.
   SurfacePoint point_at(const PathBlock& block, int lane, const Hit& hit, const Color& wide_albedo) const;
   /// Adds a vertex, with a query if it is worth caching. Returns its number.
-  std::int32_t ask(const Path& path, const SurfacePoint& point, PathBatch& batch) const;
+  std::int32_t add_query_vertex(const Path& path, const SurfacePoint& point, PathBatch& batch) const;
   /// Whether a path still needs its guide. PathBatch::guides has an entry for it then.
   static bool seeks_guide(const Path& path, const PathBatch& batch);
   /// Makes a vertex the guide of its path. stored: the cache can be queried there.
@@ -131,12 +131,12 @@ class CachedPaths {
   /// finds counts for all lobes, reflected light only for the narrow ones.
   void follow_direct(Path& path, const PathBlock& block, int lane, bool narrow, std::int32_t vertex,
                      Scratch& scratch) const;
-  /// Makes the next ray of a lane, if it has one. `links` apply from `vertex` on, unless the path only passes
-  /// a pane.
+  /// Makes the next ray of a lane, if it has one. `weights` apply from `vertex` on, unless the path only
+  /// passes a pane.
   void follow(Path& path, const PathBlock& block, int lane, const DirectionSample& sampled,
-              const Links& links, std::int32_t vertex, Scratch& scratch) const;
+              const VertexWeights& weights, std::int32_t vertex, Scratch& scratch) const;
   void add_emission(const Path& path, const Emission& emission, PathBatch& batch) const;
-  Walk walk_;
+  PathContext context_;
   CachedPathsOptions options_;
   const StoredSurfaces& stored_;
   bool separate_delta_;  ///< the light of punctual lights is sampled where paths end in the cache
@@ -144,7 +144,7 @@ class CachedPaths {
 
 /// Factors by which the light that a path finds next contributes to the vertex that it left: scattering
 /// there, and the transmittance of panes and media since.
-struct CachedPaths::Links {
+struct CachedPaths::VertexWeights {
   Color emission{1.0f, 1.0f, 1.0f};   ///< for emission
   Color scattered{1.0f, 1.0f, 1.0f};  ///< for reflected light
   Color cached = Color::Zero();       ///< for H of the vertex (cached_light.h), where it is a record
@@ -157,7 +157,7 @@ struct CachedPaths::Links {
 };
 
 struct CachedPaths::Path : PathState {
-  Links links;
+  VertexWeights weights;
   float spread = 0.0f;          ///< metres: root of the area over which the path has spread
   float first_spread = 0.0f;    ///< square metres: spread of the camera ray at the first surface
   std::int32_t vertex = kNone;  ///< the vertex that the ray left; kNone: the camera

@@ -40,7 +40,7 @@ void OcclusionRecords::trace(RecordBatch& batch, std::size_t block) {
     const CameraSample& start = batch.starts.starts[i].sample;
     const Vec3& direction = start.camera_ray.ray.direction;
     const Surface surface = world_.surfaces.at(hit, direction, 0.0f, 0.5f);
-    const std::uint32_t side = side_of(surface.front, world_.scene.instances[hit.instance].mirrors);
+    const std::uint32_t side = side_of(surface.front, world_.scene.instances[hit.instance].swaps_handedness);
     if (!stored_(neural::surface_index(hit.instance, side))) continue;
     // The rays of one point are consecutive: the first makes the record.
     if (i % times == 0) {

@@ -37,13 +37,13 @@ neural::SurfaceLayout WeldedMeshes::layout(const scene::Scene& scene, const std:
 neural::Sides possible_sides(const scene::Scene& scene, const scene::Instance& instance) {
   const scene::Material& material = scene.material_of(instance);
   if (material.double_sided || material.transmits()) return neural::Sides::both;
-  return instance.mirrors ? neural::Sides::back : neural::Sides::front;
+  return instance.swaps_handedness ? neural::Sides::back : neural::Sides::front;
 }
 
 std::uint32_t surface_of_hit(const scene::Scene& scene, const Hit& hit, const Vec3& direction) {
   const scene::Instance& instance = scene.instances[hit.instance];
   const bool front = scene::world_normal(scene, instance, hit.primitive).dot(direction) <= 0.0f;
-  return neural::surface_index(hit.instance, side_of(front, instance.mirrors));
+  return neural::surface_index(hit.instance, side_of(front, instance.swaps_handedness));
 }
 
 }  // namespace gatelight::renderer

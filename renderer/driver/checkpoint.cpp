@@ -185,7 +185,7 @@ void write_checkpoint(const std::filesystem::path& path, const CheckpointIdentit
   if (cache) fill_cache_content(content, cache->model, cache->options, cache->state);
   std::vector<TensorView> tensors = content.tensors;
   const FilmSums none;
-  const FilmSums& sums = progress.samples > 0 || progress.taught ? film.sums() : none;
+  const FilmSums& sums = progress.samples > 0 || progress.has_training_samples ? film.sums() : none;
   FilmSums::each_plane(sums, [&](const char* name, const auto& plane) {
     tensors.push_back(
         {plane_name(name), TensorType::u32, {words_of(plane)}, std::as_bytes(std::span(plane))});
@@ -205,7 +205,7 @@ void write_checkpoint(const std::filesystem::path& path, const CheckpointIdentit
   metadata[kPhase] = phase_name(progress.phase);
   metadata[kSamples] = fmt::format("{}", progress.samples);
   metadata[kFirstStep] = fmt::format("{}", progress.first_step);
-  metadata[kTaught] = progress.taught ? "yes" : "no";
+  metadata[kTaught] = progress.has_training_samples ? "yes" : "no";
   metadata[kHasCache] = cache ? "yes" : "no";
   add_texts(metadata, kOptions, identity.options);
   add_texts(metadata, kScene, identity.scene);
@@ -229,7 +229,7 @@ Checkpoint::Checkpoint(const std::filesystem::path& path) : file_(path) {
   progress_.phase = phase == phase_name(Phase::train) ? Phase::train : Phase::render;
   progress_.samples = number_at<int>(file_, kSamples);
   progress_.first_step = number_at<std::uint64_t>(file_, kFirstStep);
-  progress_.taught = text_at(file_, kTaught) == "yes";
+  progress_.has_training_samples = text_at(file_, kTaught) == "yes";
   if (text_at(file_, kHasCache) == "yes") cache_setup_ = read_cache_setup(file_);
 }
 
@@ -250,7 +250,7 @@ const CacheSetup& Checkpoint::cache_setup() const {
 }
 
 void Checkpoint::restore(Film& film, RenderStatistics& statistics) {
-  if (progress_.samples > 0 || progress_.taught) {
+  if (progress_.samples > 0 || progress_.has_training_samples) {
     FilmSums sums = film.sums();  // has the expected sizes
     FilmSums::each_plane(sums, [&](const char* plane_of_film, auto& plane) {
       const std::string name = plane_name(plane_of_film);

@@ -24,8 +24,8 @@ struct CheckpointProgress {
   Phase phase = Phase::render;  ///< train or render
   int samples = 0;              ///< of the passes; 0 while it trains
   std::uint64_t first_step =
-      0;                ///< number of its first training step; the steps of a loaded cache come before
-  bool taught = false;  ///< the film has samples of training
+      0;  ///< number of its first training step; the steps of a loaded cache come before
+  bool has_training_samples = false;  ///< the film has samples of training
 };
 
 /// Adds the statistics of earlier runs of the same picture.

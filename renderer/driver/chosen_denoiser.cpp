@@ -30,7 +30,8 @@ ChosenDenoiser choose_denoiser(const DenoiseOptions& options, Ranks& ranks) {
 
 RenderOptions with_denoiser(RenderOptions options, const ChosenDenoiser& chosen) {
   options.denoise.denoiser = chosen.found ? DenoiserKind::oidn : DenoiserKind::none;
-  if (!chosen.found || options.spp < options.denoise.parts()) options.denoise.supersampling = 1;
+  if (!chosen.found || options.spp < options.denoise.film_pixels_per_pixel())
+    options.denoise.supersampling = 1;
   return options;
 }
 
@@ -42,7 +43,8 @@ RenderOptions options_of_film(RenderOptions options) {
   if (options.region) {
     for (int& edge : *options.region) edge *= factor;
   }
-  if (options.spp < kOpenSpp) options.spp = std::max(1, options.spp / options.denoise.parts());
+  if (options.spp < kUnlimitedSpp)
+    options.spp = std::max(1, options.spp / options.denoise.film_pixels_per_pixel());
   options.filter = PixelFilter::box;
   options.filter_width = 0.0f;
   return options;

@@ -8,9 +8,9 @@
 #include "renderer/cache/cache_file.h"
 #include "renderer/cache/light_change.h"
 #include "renderer/driver/cache_sessions.h"
-#include "renderer/driver/frame_file.h"
 #include "renderer/settings/enum_names.h"
 #include "renderer/settings/resolved_options.h"
+#include "renderer/temporal/frame_file.h"
 
 namespace gatelight::renderer {
 namespace {
@@ -23,7 +23,7 @@ constexpr double kStepsOfFrames = 4.0 / 3.0;
 
 /// The way in the picture from an earlier view, or to a later one. `other`: null for none, which is no
 /// motion.
-Layer motion_layer(const PreparedPicture& picture, Aov aov, const EarlierView* other) {
+Layer motion_layer(const PreparedPicture& picture, Aov aov, const PreviousView* other) {
   const RenderOptions& options = picture.options_of_picture;
   const PixelRect rect = picture.region_of_picture();
   Layer layer{.name = enum_name(aov), .channels = {"X", "Y"}, .full_precision = true};
@@ -78,7 +78,7 @@ void FrameMemory::restore(const PreparedPicture& picture, const std::filesystem:
   if (light.empty()) return;
   VisiblePoints points = picture.arena.execute(
       [&] { return trace_visible_points(*picture.world, picture.camera, picture.region, nullptr); });
-  history = std::make_unique<History>(History{.view = {Moment(picture.scene), picture.camera},
+  history = std::make_unique<History>(History{.view = {SceneSnapshot(picture.scene), picture.camera},
                                               .rect = picture.region,
                                               .points = std::move(points.now),
                                               .color = std::move(light.color),
@@ -98,8 +98,8 @@ Reuse FrameMemory::reuse(const PreparedPicture& picture, const Film& film) {
 
 void FrameMemory::note_view(const PreparedPicture& picture, const View& view, int of_frame) {
   const RenderOptions& options = picture.options_of_picture;
-  views_.insert_or_assign(of_frame,
-                          EarlierView{Moment(picture.scene), Camera(view, options.width, options.height)});
+  views_.insert_or_assign(
+      of_frame, PreviousView{SceneSnapshot(picture.scene), Camera(view, options.width, options.height)});
 }
 
 std::vector<Layer> FrameMemory::motion(const PreparedPicture& picture) {
@@ -117,7 +117,7 @@ std::vector<Layer> FrameMemory::motion(const PreparedPicture& picture) {
 
 void FrameMemory::keep(const PreparedPicture& picture, const std::vector<float>& denoised,
                        const Reuse& reuse) {
-  history = std::make_unique<History>(History{.view = {Moment(picture.scene), picture.camera},
+  history = std::make_unique<History>(History{.view = {SceneSnapshot(picture.scene), picture.camera},
                                               .rect = picture.region,
                                               .points = reuse.points.now,
                                               .color = denoised,

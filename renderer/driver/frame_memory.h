@@ -12,8 +12,8 @@
 #include "renderer/denoise/denoise.h"
 #include "renderer/driver/render_context.h"
 #include "renderer/fingerprint/scene_fingerprint.h"
-#include "renderer/reuse/history.h"
-#include "renderer/reuse/light_probes.h"
+#include "renderer/temporal/history.h"
+#include "renderer/temporal/light_probes.h"
 
 namespace gatelight::renderer {
 
@@ -53,7 +53,7 @@ struct FrameMemory {
              std::optional<float> exposure) const;
 
  private:
-  std::map<int, EarlierView> views_;  ///< by frame, in the picture's own pixels
+  std::map<int, PreviousView> views_;  ///< by frame, in the picture's own pixels
 };
 
 /// Training steps of a new cache that frames share.

@@ -68,7 +68,7 @@ void PictureCheckpoint::write(Phase phase, int samples, Film& film, const Traini
   CheckpointProgress progress{.phase = phase, .samples = samples};
   if (training) {
     progress.first_step = training->first_step();
-    progress.taught = training->taught_film();
+    progress.has_training_samples = training->has_training_samples();
   }
   write_output(context_.callbacks, again, [&] {
     const neural::TrainingOptions learning = training_options(context_.picture.options);

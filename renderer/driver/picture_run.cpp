@@ -39,7 +39,7 @@ class PictureRun {
 
   ~PictureRun() {
     context_.picture.arena.execute([&] { beside_.wait(); });
-    if (memory_ && training_) training_->hand_on(*memory_);
+    if (memory_ && training_) training_->release_to(*memory_);
   }
 
   Picture make() {
@@ -98,15 +98,15 @@ class PictureRun {
       });
     } catch (const TrainingDiverged& error) {
       // The last good state still gives a picture and a cache file. The checkpoint is kept.
-      if (!training_->return_to_good(error.what(), film_, sums_.earlier)) throw;
+      if (!training_->roll_back(error.what(), film_, sums_.earlier)) throw;
       checkpoint_->close();
     }
     // Training that a time limit ended is not repeated: its end decides the picture.
-    keep(is_whole() ? Phase::render : Phase::train, 0, sum_up(nullptr), is_whole());
+    keep(is_converged_cache() ? Phase::render : Phase::train, 0, sum_up(nullptr), is_converged_cache());
   }
 
   void write_cache() const {
-    if (training_ && is_whole() && !options_.cache.cache_out.empty() && ranks_.first())
+    if (training_ && is_converged_cache() && !options_.cache.cache_out.empty() && ranks_.first())
       write_output(context_.callbacks, false, [&] { training_->write_cache(); });
   }
 
@@ -124,7 +124,8 @@ class PictureRun {
       show_snapshot(loop);
       if (loop.over() || is_good_enough(loop) || loop.over()) return;
       context_.tiles.rebalance(film_, loop.last_pass());
-      if (is_whole() && checkpoint_->is_due()) keep(Phase::render, loop.done(), sum_up(&loop), true);
+      if (is_converged_cache() && checkpoint_->is_due())
+        keep(Phase::render, loop.done(), sum_up(&loop), true);
     }
   }
 
@@ -176,7 +177,7 @@ class PictureRun {
   void end_passes(const SampleLoop& loop) {
     statistics_ = sum_up(&loop);
     statistics_.device_lost = device_lost_;
-    if (is_whole() && device_lost_.empty()) keep(Phase::render, loop.done(), statistics_, false);
+    if (is_converged_cache() && device_lost_.empty()) keep(Phase::render, loop.done(), statistics_, false);
     loop.report_end();
   }
 
@@ -193,7 +194,7 @@ class PictureRun {
     const bool all_samples = loop.done() >= options_.spp;
     if (!device_lost_.empty()) {
       statistics_.ended_by = EndedBy::device;
-    } else if (denoising_stopped_ || (loop.stopped() && !(all_samples && is_whole()))) {
+    } else if (denoising_stopped_ || (loop.stopped() && !(all_samples && is_converged_cache()))) {
       statistics_.ended_by = EndedBy::caller;
     } else if (reached_error_) {
       statistics_.ended_by = EndedBy::max_error;
@@ -201,11 +202,11 @@ class PictureRun {
       statistics_.ended_by = all_samples ? EndedBy::spp : EndedBy::time_limit;
     }
     const bool early = statistics_.ended_by != EndedBy::max_error && !all_samples;
-    statistics_.interrupted = early || !is_whole() || denoising_stopped_;
+    statistics_.interrupted = early || !is_converged_cache() || denoising_stopped_;
   }
 
   /// A picture from an incomplete cache is a preview; it is never resumed.
-  bool is_whole() const { return !training_ || training_->complete(); }
+  bool is_converged_cache() const { return !training_ || training_->complete(); }
   RenderStatistics sum_up(const SampleLoop* loop) const { return sums_.sum_up(film_, training_.get(), loop); }
   void keep(Phase phase, int samples, const RenderStatistics& sum, bool again) {
     checkpoint_->write(phase, samples, film_, training_.get(), sum, again);

@@ -17,7 +17,7 @@ RenderStatistics PictureStatistics::sum_up(const Film& film, const Training* tra
   SampleCounts counts;
   if (loop) {
     sum.render_seconds = loop->seconds();
-    sum.spp = loop->done() * context_.picture.options.denoise.parts();
+    sum.spp = loop->done() * context_.picture.options.denoise.film_pixels_per_pixel();
     sum.rays = loop->pass().rays();
     counts = loop->pass().counts();
   }

@@ -161,7 +161,7 @@ void PreparedPicture::choose_options(const RenderOptions& chosen) {
 
 void PreparedPicture::build_world(const WorldOptions& wanted) {
   if (world && built_ == wanted) return;
-  LastingParts lasting;
+  ReusableParts lasting;
   if (world) {
     lasting.textures = world->lasting.textures;
     if (built_.environment == wanted.environment) lasting.environment = world->lasting.environment;
@@ -238,7 +238,7 @@ void PreparedPicture::scene_moved(const CameraOptions& chosen) {
   const Clock::time_point start = Clock::now();
   if (scene.motion.any()) {
     // An earlier time that could not be shown may have left no world.
-    const LastingParts lasting = world ? world->lasting : LastingParts{};
+    const ReusableParts lasting = world ? world->lasting : ReusableParts{};
     world.reset();
     arena.execute([&] { world.emplace(scene, world_options(), lasting); });
   }

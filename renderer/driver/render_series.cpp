@@ -44,7 +44,7 @@ void check_series(const Series& series, const RenderOptions& options) {
   refuse(caches && options.cache.train_seconds > 0.0, "a time limit of training");
   refuse(!options.checkpoint.file.empty(), "a checkpoint");
   refuse(caches && !options.cache.cache_out.empty(), "a cache file to write");
-  const int of_pixel = options.denoise.parts();
+  const int of_pixel = options.denoise.film_pixels_per_pixel();
   for (const int spp : series.spp) {
     if (spp % of_pixel != 0)
       throw BadOption(fmt::format("a series of spp with {}: expected multiples of {}, with supersampling",

@@ -4,11 +4,11 @@
 #include "base/platform/flush_denormals.h"
 #include "renderer/cache/cache_report.h"
 #include "renderer/cache/cache_session.h"
-#include "renderer/driver/frame_file.h"
 #include "renderer/driver/frame_memory.h"
 #include "renderer/driver/picture_run.h"
 #include "renderer/driver/render_series.h"
 #include "renderer/render.h"
+#include "renderer/temporal/frame_file.h"
 
 namespace gatelight::renderer {
 

@@ -107,9 +107,9 @@ Progress SampleLoop::progress(double samples) const {
   double fraction = samples / spp_;
   if (expected_samples_ > 0.0) fraction = std::max(fraction, samples / expected_samples_);
   if (std::isfinite(end_)) fraction = std::max(fraction, now() / std::max(end_, 1e-9));
-  const int of_pixel = picture_.options.denoise.parts();
+  const int of_pixel = picture_.options.denoise.film_pixels_per_pixel();
   return {.spp_done = done_ * of_pixel,
-          .spp = spp_ == kOpenSpp ? spp_ : spp_ * of_pixel,
+          .spp = spp_ == kUnlimitedSpp ? spp_ : spp_ * of_pixel,
           .samples = samples * of_pixel,
           .error = error_,
           .fraction = std::min(fraction, 1.0),

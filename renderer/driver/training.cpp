@@ -70,7 +70,7 @@ Training::Training(const RenderContext& context, FrameMemory& memory)
   first_step_ = session_->steps();
 }
 
-void Training::hand_on(FrameMemory& memory) {
+void Training::release_to(FrameMemory& memory) {
   if (!complete_ && !stopped_) session_->start_anew();  // it has diverged
   memory.cache = std::move(session_);
 }
@@ -159,7 +159,7 @@ void Training::report(int done, double loss, double of_time) const {
                                .seconds = session_->statistics().train_seconds});
 }
 
-bool Training::return_to_good(const std::string& reason, Film& film, RenderStatistics& earlier) {
+bool Training::roll_back(const std::string& reason, Film& film, RenderStatistics& earlier) {
   const std::uint64_t good = session_->good_steps();
   const bool loaded = !options_.cache.cache_in.empty();
   if (good == 0 && !loaded) return false;

@@ -18,9 +18,9 @@ class Training {
   /// Starts from the checkpoint or the cache file where there is one, else from a new cache, and scouts.
   /// `found`: the checkpoint, which outlives the training; null: none.
   Training(const RenderContext& context, Checkpoint* found);
-  /// Goes on with the cache of an animation, which memory gets back from hand_on().
+  /// Goes on with the cache of an animation, which memory gets back from release_to().
   Training(const RenderContext& context, FrameMemory& memory);
-  void hand_on(FrameMemory& memory);
+  void release_to(FrameMemory& memory);
 
   /// Training should end here, with a group of steps.
   void end_at(Clock::time_point end) { end_ = end; }
@@ -34,7 +34,7 @@ class Training {
   void train_on(Film& film, FrameMemory& memory);
   /// After training diverged: returns to the last good state by training up to it again. So normal training
   /// costs nothing extra. False where there is no good state. Film and `earlier` are those of that state.
-  bool return_to_good(const std::string& reason, Film& film, RenderStatistics& earlier);
+  bool roll_back(const std::string& reason, Film& film, RenderStatistics& earlier);
 
   struct Snapshot {
     CacheSession::Snapshot session;
@@ -50,7 +50,7 @@ class Training {
   /// Whether the caller stopped it.
   bool stopped() const { return stopped_; }
   /// Whether the film has samples from training. A loaded cache was trained with another picture.
-  bool taught_film() const { return makes_samples() && session_->samples() > 0; }
+  bool has_training_samples() const { return makes_samples() && session_->samples() > 0; }
   /// The picture's samples that trained the cache, in this run.
   const SampleCounts& counts() const { return counts_; }
   /// Rays and statistics of the cache.

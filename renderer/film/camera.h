@@ -23,8 +23,8 @@ class Camera {
   Camera(const View& view, int width, int height);
 
   /// The volumes that all rays start in; none unless set.
-  const Interior& around() const { return around_; }
-  void set_around(const Interior& around) { around_ = around; }
+  const MediumStack& around() const { return around_; }
+  void set_around(const MediumStack& around) { around_ = around; }
 
   /// Rays get times from now on. `states`: of the camera, at evenly spaced times from the opening to the
   /// closing of the shutter, or empty where it stands still. `clock`: scene::ShutterMotion::clock.
@@ -55,7 +55,7 @@ class Camera {
  private:
   CameraRay panorama_ray(float x, float y) const;
 
-  Interior around_;
+  MediumStack around_;
   Vec3 origin_;
   Vec3 right_;  ///< one pixel, at a distance of one metre (perspective) or in the world (orthographic)
   Vec3 down_;

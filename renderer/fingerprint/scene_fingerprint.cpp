@@ -58,7 +58,7 @@ void add_instance(DigestRecord& record, const scene::Instance& instance) {
   record.add(instance.mesh);
   add_numbers(record, instance.transform.matrix());
   record.add(instance.baked);
-  record.add(instance.mirrors);
+  record.add(instance.swaps_handedness);
   record.add(instance.placement);
   record.add(instance.dielectric_priority);
 }

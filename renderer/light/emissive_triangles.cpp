@@ -52,7 +52,7 @@ EmissiveTriangle make_triangle(const scene::Scene& scene, std::uint32_t instance
   const scene::Instance& instance = scene.instances[instance_index];
   const scene::Material& material = scene.material_of(instance);
   EmissiveTriangle triangle;
-  triangle.mirrored = instance.mirrors;
+  triangle.mirrored = instance.swaps_handedness;
   triangle.emission = material.emission;
   triangle.instance = instance_index;
   triangle.primitive = primitive;

@@ -12,7 +12,7 @@ namespace gatelight::renderer {
 
 /// The part of the light reflected at a point that the cache stores. The rest is sampled where the cache is
 /// queried. cache/cached_light.h is the definition.
-enum class CacheHolds : std::uint8_t {
+enum class CachedComponent : std::uint8_t {
   all,       ///< everything (the paper)
   no_delta,  ///< all but direct light of punctual lights, which costs one shadow ray and keeps edges of the
              ///< sun sharp
@@ -27,7 +27,7 @@ enum class QueryAt : std::uint8_t {
   none,     ///< nowhere: paths run to their end, as a reference for the cache
 };
 
-enum class CacheView : std::uint8_t {
+enum class CacheOutput : std::uint8_t {
   final,  ///< the picture
   cache,  ///< the paper's picture: only the answer at the first vertex, without emission, reflectance and
           ///< light that the cache does not store
@@ -76,9 +76,9 @@ struct CacheOptions {
   bool scout = true;  ///< storage only for the sides of instances that scouting paths hit
 
   // Queries.
-  CacheHolds holds = CacheHolds::no_delta;
+  CachedComponent component = CachedComponent::no_delta;
   QueryAt query_at = QueryAt::gather;
-  CacheView view = CacheView::final;
+  CacheOutput view = CacheOutput::final;
   /// The cache answers lobes at least this rough (perceptual, as in glTF); narrower ones are traced further.
   /// 0: only delta lobes are traced.
   float min_roughness = 0.5f;

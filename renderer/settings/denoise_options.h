@@ -14,8 +14,8 @@ struct DenoiseOptions {
   /// samples in all. It is then scaled by its pixel filter. 1 where nothing is denoised.
   int supersampling = 1;
   /// Pixels of the film in one of the picture.
-  int parts() const { return supersampling * supersampling; }
-  bool temporal = true;  ///< frames of an animation take over samples of earlier ones (reuse/history.h)
+  int film_pixels_per_pixel() const { return supersampling * supersampling; }
+  bool temporal = true;  ///< frames of an animation take over samples of earlier ones (temporal/history.h)
   std::string library;   ///< of the denoiser: its file or folder; empty: searched (denoise/oidn_library.h)
 };
 

@@ -96,16 +96,18 @@ template <>
 inline constexpr Choice<LightSelection> kEnumNames<LightSelection>[] = {{"tree", LightSelection::tree},
                                                                         {"power", LightSelection::power}};
 template <>
-inline constexpr Choice<CacheHolds> kEnumNames<CacheHolds>[] = {
-    {"all", CacheHolds::all}, {"no-delta", CacheHolds::no_delta}, {"indirect", CacheHolds::indirect}};
+inline constexpr Choice<CachedComponent> kEnumNames<CachedComponent>[] = {
+    {"all", CachedComponent::all},
+    {"no-delta", CachedComponent::no_delta},
+    {"indirect", CachedComponent::indirect}};
 template <>
 inline constexpr Choice<QueryAt> kEnumNames<QueryAt>[] = {{"primary", QueryAt::primary},
                                                           {"gather", QueryAt::gather},
                                                           {"spread", QueryAt::spread},
                                                           {"none", QueryAt::none}};
 template <>
-inline constexpr Choice<CacheView> kEnumNames<CacheView>[] = {{"final", CacheView::final},
-                                                              {"cache", CacheView::cache}};
+inline constexpr Choice<CacheOutput> kEnumNames<CacheOutput>[] = {{"final", CacheOutput::final},
+                                                                  {"cache", CacheOutput::cache}};
 template <>
 inline constexpr Choice<TrainingSource> kEnumNames<TrainingSource>[] = {{"picture", TrainingSource::picture},
                                                                         {"camera", TrainingSource::camera},

@@ -54,7 +54,7 @@ struct CameraOptions {
 };
 
 /// Number of samples per pixel which means that something else ends the picture.
-inline constexpr int kOpenSpp = 1 << 24;
+inline constexpr int kUnlimitedSpp = 1 << 24;
 
 /// More scattering events than Russian roulette lets a path reach.
 inline constexpr int kNoDepthLimit = 1 << 30;
@@ -67,7 +67,7 @@ struct RenderOptions {
   int width = 960;
   int height = 540;
   std::optional<std::array<int, 4>> region;  ///< x0, y0, x1, y1 in pixels, x1 and y1 excluded
-  int spp = 64;                              ///< kOpenSpp: as many as fit into the time limit
+  int spp = 64;                              ///< kUnlimitedSpp: as many as fit into the time limit
   /// Replaces spp where choose_integrator takes path, for about the same time; 0: spp.
   int spp_of_paths = 0;
   /// Time of scouting, setup, training, passes and denoising together; 0: no limit.

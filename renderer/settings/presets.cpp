@@ -18,7 +18,7 @@ void set_finished(RenderOptions& options, int spp) {
   cache.source = TrainingSource::picture;
   cache.query_at = QueryAt::spread;
   cache.spread_threshold = 0.3f;
-  cache.holds = CacheHolds::no_delta;
+  cache.component = CachedComponent::no_delta;
   cache.self_training.start_step = -1;
   cache.batch = 2048;
   cache.training.adam.decay_steps = 20.0f;
@@ -34,7 +34,7 @@ void apply_preset(CachePreset preset, RenderOptions& options) {
       options.spp = 4;
       options.glass_shadows = GlassShadows::straight;
       cache.query_at = QueryAt::primary;
-      cache.holds = CacheHolds::no_delta;
+      cache.component = CachedComponent::no_delta;
       break;
     case CachePreset::preview:
       set_finished(options, 4);
@@ -78,9 +78,9 @@ void apply_preset(CachePreset preset, RenderOptions& options) {
       cache.training.start_at_mean = false;
       cache.training.feature_step = neural::FeatureStep::per_triangle;
       cache.min_roughness = 0.0f;
-      cache.holds = CacheHolds::all;
+      cache.component = CachedComponent::all;
       cache.query_at = QueryAt::primary;
-      cache.view = CacheView::cache;
+      cache.view = CacheOutput::cache;
       break;
     }
   }

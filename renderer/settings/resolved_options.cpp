@@ -24,7 +24,7 @@ void check_light_groups(const RenderOptions& options) {
 
 bool training_gives_samples(const RenderOptions& options) {
   const CacheOptions& cache = options.cache;
-  return options.integrator == Integrator::nrc && cache.view == CacheView::final && cache.candidates == 1 &&
+  return options.integrator == Integrator::nrc && cache.view == CacheOutput::final && cache.candidates == 1 &&
          cache.samples_per_point == 1 && cache.path_length == 0;
 }
 

@@ -9,7 +9,7 @@
 
 namespace {
 
-using gatelight::renderer::LightView;
+using gatelight::renderer::LightArraysPtr;
 
 /// A point that receives light. The normal is zero where light may arrive from all sides; `free` is 1 there.
 struct Receiver {
@@ -55,7 +55,7 @@ GATELIGHT_INLINE Float weigh(const Receiver& r, float nearest2, Field field) {
 using Weights = Float4;
 
 /// The weights of the root's children. All lanes share the root.
-GATELIGHT_INLINE Weights weigh_root(const Receiver& r, const LightView& view) {
+GATELIGHT_INLINE Weights weigh_root(const Receiver& r, const LightArraysPtr& view) {
   Weights w;
 #pragma GCC unroll 1
   for (int c = 0; c < 4; ++c)
@@ -69,9 +69,9 @@ GATELIGHT_INLINE Weights weigh_root(const Receiver& r, const LightView& view) {
 /// times as many loads.
 struct NodeWeigher {
   alignas(64) float receiver[7][kLanes];
-  const LightView& view;
+  const LightArraysPtr& view;
 
-  GATELIGHT_INLINE NodeWeigher(const Receiver& r, const LightView& lights) : view(lights) {
+  GATELIGHT_INLINE NodeWeigher(const Receiver& r, const LightArraysPtr& lights) : view(lights) {
     const Float parts[7] = {r.p.x, r.p.y, r.p.z, r.n.x, r.n.y, r.n.z, r.free};
     for (int i = 0; i < 7; ++i) store(receiver[i], parts[i]);
   }
@@ -111,7 +111,7 @@ struct Digits {
 
 /// LightTree::sample. Changes `chosen` and multiplies `probability` where `open` is set; returns the lanes
 /// for which no light is found.
-GATELIGHT_INLINE Mask descend(const LightView& view, const Receiver& r, Weights w, Mask open, Float u,
+GATELIGHT_INLINE Mask descend(const LightArraysPtr& view, const Receiver& r, Weights w, Mask open, Float u,
                               Digits& digits, Int& chosen, Float& probability) {
   const NodeWeigher weigh_node(r, view);
   Mask lost = no_lanes();

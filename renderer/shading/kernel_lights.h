@@ -10,7 +10,7 @@
 namespace {
 
 using gatelight::renderer::LaneLight;
-using gatelight::renderer::LightView;
+using gatelight::renderer::LightArraysPtr;
 using gatelight::renderer::ShadingBlock;
 using gatelight::renderer::ShadingContext;
 
@@ -27,9 +27,9 @@ struct LanesOfLight {
 };
 
 /// sample_triangle of Lights, with triangle_sampling.h. `choice` is the probability of the triangle.
-GATELIGHT_INLINE LanesOfLight sample_triangles(const LightView& view, Float3 p, Int light, Float choice,
+GATELIGHT_INLINE LanesOfLight sample_triangles(const LightArraysPtr& view, Float3 p, Int light, Float choice,
                                                Float2 u, Mask here) {
-  const Records record(light * static_cast<uint32_t>(LightView::kTriangleFloats));
+  const Records record(light * static_cast<uint32_t>(LightArraysPtr::kTriangleFloats));
   const auto four = [&](uint32_t i) __attribute__((always_inline)) {
     return record.four(view.triangles, 4 * i);
   };
@@ -92,9 +92,9 @@ GATELIGHT_INLINE LanesOfLight sample_triangles(const LightView& view, Float3 p, 
 }
 
 /// sample_placed of Lights, with punctual.h.
-GATELIGHT_INLINE LanesOfLight sample_placed(const LightView& view, Float3 p, Int light, Float choice,
+GATELIGHT_INLINE LanesOfLight sample_placed(const LightArraysPtr& view, Float3 p, Int light, Float choice,
                                             Mask here) {
-  const Int at = light * static_cast<uint32_t>(LightView::kPlacedFloats);
+  const Int at = light * static_cast<uint32_t>(LightArraysPtr::kPlacedFloats);
   const auto field = [&](uint32_t i) __attribute__((always_inline)) {
     return gather(view.placed + i, at);
   };
@@ -130,15 +130,15 @@ GATELIGHT_INLINE Mask is_above(const Receiver& r, const float* sun) {
 
 /// All local lights together, each sun above the surface, and the sky have equal chances. `reached`: some
 /// local light can reach the lane.
-GATELIGHT_INLINE KindOfLight choose_kind(const LightView& view, const Receiver& r, Mask reached,
+GATELIGHT_INLINE KindOfLight choose_kind(const LightArraysPtr& view, const Receiver& r, Mask reached,
                                          Float u_choice, Digits& digits) {
   Int suns(0u);
   for (uint32_t i = 0; i < view.sun_count; ++i)
-    suns += words_of(is_above(r, view.suns + LightView::kSunFloats * i)) & 1u;
+    suns += words_of(is_above(r, view.suns + LightArraysPtr::kSunFloats * i)) & 1u;
   const Int one_local = words_of(reached) & 1u;
   Mask sky = no_lanes();
-  if (view.sky == LightView::Sky::picture) sky = ~sky;
-  if (view.sky == LightView::Sky::constant) sky = (one_local + suns) == 0u;
+  if (view.sky == LightArraysPtr::Sky::picture) sky = ~sky;
+  if (view.sky == LightArraysPtr::Sky::constant) sky = (one_local + suns) == 0u;
   const Int parts = one_local + suns + (words_of(sky) & 1u);
   const Mask some = ~(parts == 0u);
   const Float count = to_float(select(some, parts, Int(1u)));
@@ -175,7 +175,7 @@ struct LaneLights {
   }
 
   /// Emissive triangles and placed lights, by the light tree.
-  GATELIGHT_INLINE void sample_local(const LightView& view, const Receiver& r, const Weights& root,
+  GATELIGHT_INLINE void sample_local(const LightArraysPtr& view, const Receiver& r, const Weights& root,
                                      const KindOfLight& kind, Digits& digits) {
     const Float2 u = point;
     Int chosen(0u);
@@ -199,10 +199,10 @@ struct LaneLights {
     }
   }
 
-  GATELIGHT_INLINE void sample_suns(const LightView& view, const Receiver& r, const KindOfLight& kind) {
+  GATELIGHT_INLINE void sample_suns(const LightArraysPtr& view, const Receiver& r, const KindOfLight& kind) {
     Int left = kind.sun;
     for (uint32_t i = 0; i < view.sun_count; ++i) {
-      const float* const sun = view.suns + LightView::kSunFloats * i;
+      const float* const sun = view.suns + LightArraysPtr::kSunFloats * i;
       const Mask above = is_above(r, sun);
       const Mask taken = kind.suns & above & (left == 0u);
       left = left - (words_of(above) & 1u);
@@ -216,12 +216,12 @@ struct LaneLights {
     }
   }
 
-  GATELIGHT_INLINE void sample_sky(const LightView& view, const Receiver& r, const KindOfLight& kind,
+  GATELIGHT_INLINE void sample_sky(const LightArraysPtr& view, const Receiver& r, const KindOfLight& kind,
                                    Mask sheet, Float2 u) {
     const Mask to_sky = kind.sky;
     distance = select(to_sky, kInfinite, distance);
     light = select(to_sky, Int(view.triangle_count + view.placed_count + view.sun_count), light);
-    if (view.sky != LightView::Sky::constant) {
+    if (view.sky != LightArraysPtr::Sky::constant) {
       pdf = select(to_sky, kind.probability, pdf);
       state = select(to_sky, state_of(LaneLight::environment), state);
       return;
@@ -255,7 +255,7 @@ struct LaneLights {
 
 /// Lights::sample for the lanes from `at` on.
 GATELIGHT_INLINE void sample_lights_at(ShadingBlock& block, const ShadingContext& context, int at) {
-  const LightView& view = context.lights;
+  const LightArraysPtr& view = context.lights;
   const LaneSampler sampler{block.sampler, load(block.sampler_key + at), load(block.sampler_index + at)};
   const Int dimensions = load(block.dimensions + at);
   const Float u_choice = sampler.get_1d(dimensions + 2u);

@@ -9,7 +9,7 @@
 namespace gatelight::renderer {
 
 /// The lights of a scene for the kernels. The memory belongs to LightArrays.
-struct LightView {
+struct LightArraysPtr {
   static constexpr int kTriangleFloats = 20;
   static constexpr int kPlacedFloats = 16;
   static constexpr int kSunFloats = 6;
@@ -47,7 +47,7 @@ struct Roulette {
 };
 
 struct ShadingContext {
-  LightView lights;
+  LightArraysPtr lights;
   BsdfTables tables;
   DirectLight direct = DirectLight::mis;
   MisHeuristic heuristic = MisHeuristic::power;

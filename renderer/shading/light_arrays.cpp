@@ -19,7 +19,7 @@ LightArrays::LightArrays(const Lights& lights)
 
   const EmissiveTriangles& emissive = lights.triangles();
   view_.triangle_count = static_cast<std::uint32_t>(emissive.size());
-  triangles_.reserve(emissive.size() * LightView::kTriangleFloats);
+  triangles_.reserve(emissive.size() * LightArraysPtr::kTriangleFloats);
   for (std::size_t i = 0; i < emissive.size(); ++i) {
     const EmissiveTriangle& t = emissive[i];
     complete_ = complete_ && t.plain;
@@ -51,17 +51,17 @@ LightArrays::LightArrays(const Lights& lights)
   view_.suns = suns_.data();
   view_.sun_count = static_cast<std::uint32_t>(lights.distant().size());
   const Environment& sky = lights.environment();
-  if (!sky.black()) view_.sky = sky.constant() ? LightView::Sky::constant : LightView::Sky::picture;
-  complete_ = complete_ && view_.sky != LightView::Sky::picture;
+  if (!sky.black()) view_.sky = sky.constant() ? LightArraysPtr::Sky::constant : LightArraysPtr::Sky::picture;
+  complete_ = complete_ && view_.sky != LightArraysPtr::Sky::picture;
   for (int c = 0; c < 3; ++c) view_.sky_radiance[c] = sky.mean()[c];
 }
 
-LightView LightArrays::delta_view() const {
-  LightView view = view_;
+LightArraysPtr LightArrays::delta_view() const {
+  LightArraysPtr view = view_;
   view.tree = placed_tree_->node_numbers();
   view.nearest2 = placed_tree_->nearest2();
   view.triangle_count = 0;
-  view.sky = LightView::Sky::none;
+  view.sky = LightArraysPtr::Sky::none;
   return view;
 }
 

@@ -17,9 +17,9 @@ class LightArrays {
 
   /// Null where the kernels do not support the selection of lights, or lights that move while the shutter is
   /// open.
-  const LightView* view() const { return usable_ ? &view_ : nullptr; }
+  const LightArraysPtr* view() const { return usable_ ? &view_ : nullptr; }
   /// The view of the lights of Lights::sample_delta. view() must not be null.
-  LightView delta_view() const;
+  LightArraysPtr delta_view() const;
   /// Whether the kernels complete all samples: there is no picture of the sky, no textured emitter and no
   /// profile.
   bool complete() const { return complete_; }
@@ -28,7 +28,7 @@ class LightArrays {
  private:
   bool usable_;
   bool complete_ = true;
-  LightView view_;
+  LightArraysPtr view_;
   const LightTree* placed_tree_;
   std::vector<float> triangles_;
   std::vector<float> placed_;

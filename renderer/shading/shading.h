@@ -50,7 +50,7 @@ class Shading {
   const Lights& lights_;
   const ShadingKernels& kernels_;
   ShadingContext context_;
-  LightView delta_lights_;
+  LightArraysPtr delta_lights_;
   bool wide_lights_;
   bool lights_are_complete_;  ///< LightArrays::complete
 };

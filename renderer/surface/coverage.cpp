@@ -70,7 +70,7 @@ bool Coverage::is_there(const Hit& hit, std::uint32_t seed) const {
   return alpha_number(seed, surface) < a;
 }
 
-Passage Coverage::pass(const Hit& hit, const Vec3& direction, const Interior& around) const {
+Passage Coverage::pass(const Hit& hit, const Vec3& direction, const MediumStack& around) const {
   Passage passage;
   if (!(flags_[hit.instance] & (kPane | kUnrefractedGlass))) return passage;
   const scene::Instance& instance = scene_.instances[hit.instance];

@@ -59,7 +59,7 @@ class Coverage {
 
   /// The passage of a shadow ray through the surface. Smooth thin-walled transmission and unrefracted glass
   /// let light pass; every other surface blocks it. `around`: the volumes that the ray is in.
-  Passage pass(const Hit& hit, const Vec3& direction, const Interior& around = {}) const;
+  Passage pass(const Hit& hit, const Vec3& direction, const MediumStack& around = {}) const;
 
  private:
   static constexpr std::uint8_t kAlpha = 1;

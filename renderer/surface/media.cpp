@@ -4,7 +4,7 @@
 
 namespace gatelight::renderer {
 
-void Interior::enter(std::uint32_t volume) {
+void MediumStack::enter(std::uint32_t volume) {
   const auto begin = volumes_.begin(), end = begin + count_;
   const auto at = std::lower_bound(begin, end, volume);
   if (at == volumes_.end() || (at != end && *at == volume)) return;
@@ -13,7 +13,7 @@ void Interior::enter(std::uint32_t volume) {
   *at = volume;
 }
 
-void Interior::leave(std::uint32_t volume) {
+void MediumStack::leave(std::uint32_t volume) {
   const auto begin = volumes_.begin(), end = begin + count_;
   const auto at = std::lower_bound(begin, end, volume);
   if (at == end || *at != volume) return;
@@ -37,7 +37,7 @@ Media::Media(const scene::Scene& scene, bool needed) {
   }
 }
 
-bool vanish(SurfaceMaterial& material, float u) {
+bool make_index_matched(SurfaceMaterial& material, float u) {
   const float glass = glass_share(material);
   if (u < glass) {
     material = {.roughness = 0.0f, .ior = 1.0f, .specular = 0.0f, .transmission = 1.0f};

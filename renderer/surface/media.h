@@ -13,7 +13,7 @@ namespace gatelight::renderer {
 
 /// The volumes around a point, by their numbers: the smallest one is the strongest and fills the space. Of
 /// more than kMost the weakest are forgotten; a path that leaves one of them later was in it nevertheless.
-class Interior {
+class MediumStack {
  public:
   static constexpr int kMost = 8;
 
@@ -55,11 +55,11 @@ class Media {
   }
   /// Whether the boundary of `volume`, or of glass that is no volume, exists for a path in the volumes
   /// `around` on either side of it. Otherwise a stronger volume fills the space on both sides.
-  bool is_there(std::uint32_t volume, const Interior& around) const {
+  bool is_there(std::uint32_t volume, const MediumStack& around) const {
     return volume == scene::kNoVolume || volume < around.strongest_but(volume);
   }
   /// The strongest volume on the other side of such a boundary.
-  const Medium& beyond(std::uint32_t volume, const Interior& around) const {
+  const Medium& beyond(std::uint32_t volume, const MediumStack& around) const {
     return of(around.strongest_but(volume));
   }
   /// The medium of a volume; air outside of all volumes.
@@ -75,7 +75,7 @@ class Media {
 /// there, or of the surface's own medium where it is none of the volumes and the ray enters it. `own`: that
 /// absorption, called where it counts.
 template <class Own>
-Color cross(const Media& media, Interior& interior, std::uint32_t volume, bool enters, const Own& own) {
+Color cross(const Media& media, MediumStack& interior, std::uint32_t volume, bool enters, const Own& own) {
   if (volume == scene::kNoVolume && enters) return own();
   if (volume != scene::kNoVolume) interior.cross(volume, enters);
   return media.of(interior.strongest()).absorption;
@@ -89,6 +89,6 @@ inline float glass_share(const SurfaceMaterial& m) {
 /// Replaces the material of a boundary that is not there, by the choice of `u` in [0, 1): with the
 /// probability glass_share() by a clear pane, otherwise by the part of the surface that is not glass. Returns
 /// true for a pane.
-bool vanish(SurfaceMaterial& material, float u);
+bool make_index_matched(SurfaceMaterial& material, float u);
 
 }  // namespace gatelight::renderer

@@ -55,7 +55,7 @@ Color ShadowTransmittance::passed(const Coverage& coverage, float distance) {
     return std::tuple(a.t, a.instance, a.primitive) < std::tuple(b.t, b.instance, b.primitive);
   });
   // The ray starts in the volumes whose first boundary it leaves.
-  Interior in;
+  MediumStack in;
   for (auto b = all.begin(); b != all.end(); ++b) {
     const bool first = std::none_of(all.begin(), b, [&](const Boundary& a) { return a.volume == b->volume; });
     if (first && !b->front && b->volume != scene::kNoVolume) in.enter(b->volume);

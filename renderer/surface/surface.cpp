@@ -92,7 +92,8 @@ class Frame {
 };
 
 /// Moves a point of a flat triangle onto the round surface that the normals of its corners describe.
-void round(Surface& s, const Vec3 (&p)[3], const Vec3 (&n)[3], const Vec3& weights, const Vec3& wo) {
+void offset_shadow_terminator(Surface& s, const Vec3 (&p)[3], const Vec3 (&n)[3], const Vec3& weights,
+                              const Vec3& wo) {
   // A smooth normal that is further from the triangle's comes from a file whose normals are wrong.
   constexpr float kLeastCosine = 0.1f;
   const float cosine = s.smooth_normal.dot(s.geometric_normal);
@@ -189,7 +190,7 @@ Surfaces::Surfaces(const scene::Scene& scene, const Textures& textures) : textur
     view.mesh = &scene.mesh_of(instance);
     view.material = &scene.material_of(instance);
     view.baked = instance.baked;
-    view.mirrors = instance.mirrors;
+    view.swaps_handedness = instance.swaps_handedness;
     if (!instance.baked) {
       view.transform = instance.transform;
       view.normal_matrix = normal_matrix(instance.transform);
@@ -271,7 +272,7 @@ Surfaces::Place Surfaces::place(const View& view, const Hit& hit, const Vec3& di
   s.position = p[0] * b.x() + p[1] * b.y() + p[2] * b.z();
   s.offset = rounding_offset(p[0], p[1], p[2], view.rounding);
 
-  if (view.mirrors) ng = -ng;
+  if (view.swaps_handedness) ng = -ng;
   s.front = ng.dot(direction) <= 0.0f;
   Vec3 ns = ng;
   if (!mesh.normals.empty()) {
@@ -291,7 +292,7 @@ Surfaces::Place Surfaces::place(const View& view, const Hit& hit, const Vec3& di
     Vec3 n[3];
     for (int corner = 0; corner < 3; ++corner)
       n[corner] = view.world_normal(view.normal(corners[corner]), place.turned);
-    round(s, p, n, b, -direction);
+    offset_shadow_terminator(s, p, n, b, -direction);
   }
   return place;
 }
@@ -345,7 +346,7 @@ Surface Surfaces::at(const View& view, const Hit& hit, const Vec3& direction, fl
                    view.tangent(corners[2]) * b.z();
     tangent.w() = mesh.tangents[corners[0]].w();
     if (!view.baked) tangent.head<3>() = (view.transform.linear() * tangent.head<3>()).eval();
-    read_frame(m, read, Frame(s.smooth_normal, tangent, place.turned != view.mirrors), s);
+    read_frame(m, read, Frame(s.smooth_normal, tangent, place.turned != view.swaps_handedness), s);
   }
   read_clearcoat(m, read, s.material);
   return s;

@@ -69,7 +69,7 @@ class Surfaces {
     Affine transform = Affine::Identity();
     PlacementRounding rounding;
     bool baked = true;
-    bool mirrors = false;
+    bool swaps_handedness = false;
     /// States of the open shutter; null for what stands still in it.
     const std::vector<Affine>* transforms = nullptr;
     const std::vector<scene::DeformedVertices>* vertices = nullptr;

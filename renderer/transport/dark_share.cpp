@@ -36,7 +36,7 @@ PathIntegratorOptions paths_of(int bounces) {
 /// Paths of one place, and the same without bounces.
 class Eye {
  public:
-  Eye(const World& world, const View& view, const Interior& around, int width, int height)
+  Eye(const World& world, const View& view, const MediumStack& around, int width, int height)
       : camera_(view, width, height),
         width_(width),
         lit_(world, paths_of(kBounces)),
@@ -88,7 +88,7 @@ float exposure_of(const std::vector<Place>& places) {
 
 }  // namespace
 
-double dark_share(const World& world, const View& view, const Interior& around, double aspect) {
+double dark_share(const World& world, const View& view, const MediumStack& around, double aspect) {
   const int width = std::clamp(static_cast<int>(std::lround(std::sqrt(kPlaces * aspect))), 1, kPlaces);
   const int height = kPlaces / width;
   const Eye eye(world, view, around, width, height);

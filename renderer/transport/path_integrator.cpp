@@ -6,7 +6,7 @@ namespace gatelight::renderer {
 
 PathBlock* PathIntegrator::scatter(std::uint32_t number, PathState& path, const Ray& ray, const Hit& hit,
                                    Color& radiance, FirstHit* first, Scratch& scratch) const {
-  const LightGroups& groups = walk_.world.light_groups;
+  const LightGroups& groups = context_.world.light_groups;
   // `group` returns the light group of the emission.
   const auto add = [&](const Emission& emission, const auto& group) {
     if (!emission.any()) return;
@@ -14,19 +14,19 @@ PathBlock* PathIntegrator::scatter(std::uint32_t number, PathState& path, const 
     radiance += light;
     if (!groups.empty()) scratch.parts[path.index * groups.size() + group()] += light;
   };
-  if (!hit || path.looks_through(walk_, hit)) {
+  if (!hit || path.looks_through(context_, hit)) {
     if (first) record_background(path, *first);
-    const Emission sky = path.sky(walk_, ray.direction);
+    const Emission sky = path.sky(context_, ray.direction);
     add(sky, [&] { return groups.of_environment(); });
     return nullptr;
   }
-  SurfaceInteraction m = path.intersect(walk_, ray, hit, options_.max_depth);
-  if (first && path.surfaces == 0) *first = first_hit(hit, m.surface, walk_.world.scene.origin);
+  SurfaceInteraction m = path.intersect(context_, ray, hit, options_.max_depth);
+  if (first && path.surfaces == 0) *first = first_hit(hit, m.surface, context_.world.scene.origin);
   if (first) record_guide(path, m, *first);
   add(m.emission, [&] { return groups.of_instance(hit.instance); });
   if (m.ends) return nullptr;
   PathBlock& block = scratch.block_of(0, path.kernels_shade(m));
-  path.wait(walk_, m, number, options_.min_depth, block);
+  path.enqueue(context_, m, number, options_.min_depth, block);
   return &block;
 }
 
@@ -34,7 +34,8 @@ void PathIntegrator::add_light(const PathState& path, const ShadingBlock& points
                                Scratch& scratch) const {
   const Color direct = lane_color(points.direct, lane);
   if (!(direct > 0.0f).any()) return;
-  const Color contribution = path.carried() * direct * path.transmittance(walk_, points.shadow_length[lane]);
+  const Color contribution =
+      path.carried() * direct * path.transmittance(context_, points.shadow_length[lane]);
   const float weight = path.shadow_weight(contribution.maxCoeff(), path.contribution_threshold);
   if (!(weight > 0.0f)) return;
   scratch.shadow_rays.push_back(shadow_ray_at(points, lane));
@@ -43,7 +44,7 @@ void PathIntegrator::add_light(const PathState& path, const ShadingBlock& points
 
 void PathIntegrator::shade(PathBlock& block, std::span<FirstHit> first_hits, Scratch& scratch) const {
   const ShadingBlock& points = block.points;
-  walk_.shading.scatter(block);
+  context_.shading.scatter(block);
   for (int lane = 0; lane < points.count; ++lane) {
     const std::uint32_t number = block.path[lane];
     PathState& path = scratch.paths[scratch.path_of[number]];
@@ -51,8 +52,8 @@ void PathIntegrator::shade(PathBlock& block, std::span<FirstHit> first_hits, Scr
     add_light(path, points, lane, scratch);
     if (!points.alive[lane]) continue;
     Ray next;
-    if (path.advance(walk_, block, lane, direction_sample_at(block, lane), scratch.hits[number], next))
-      scratch.go_on(number, next);
+    if (path.advance(context_, block, lane, direction_sample_at(block, lane), scratch.hits[number], next))
+      scratch.push_next_ray(number, next);
   }
 }
 
@@ -60,16 +61,16 @@ void PathIntegrator::trace(std::span<const CameraSample> samples, std::span<Samp
                            std::span<FirstHit> first_hits, RayCounts& counts, Scratch& scratch) const {
   scratch.paths.resize(samples.size());
   scratch.rays.resize(samples.size());
-  const LightGroups& groups = walk_.world.light_groups;
+  const LightGroups& groups = context_.world.light_groups;
   scratch.parts.assign(groups.size() * samples.size(), Color::Zero());
   for (std::size_t i = 0; i < samples.size(); ++i) {
-    scratch.paths[i] = PathState(walk_.world, samples[i], i);
+    scratch.paths[i] = PathState(context_.world, samples[i], i);
     scratch.rays[i] = samples[i].ray();
     results[i] = {};
     if (!first_hits.empty()) first_hits[i] = {};
   }
   trace_waves(
-      walk_.world, {}, scratch, counts,
+      context_.world, {}, scratch, counts,
       [&](std::uint32_t number, PathState& path, Ray& ray, const Hit& hit) {
         FirstHit* const first = first_hits.empty() ? nullptr : &first_hits[path.index];
         return scatter(number, path, ray, hit, results[path.index].radiance, first, scratch);
@@ -79,7 +80,7 @@ void PathIntegrator::trace(std::span<const CameraSample> samples, std::span<Samp
         const Color arrived = light.contribution * transmittance;
         results[light.index].radiance += arrived;
         if (groups.empty()) return;
-        const std::size_t group = groups.of_light(walk_.world.lights.triangles(), light.light);
+        const std::size_t group = groups.of_light(context_.world.lights.triangles(), light.light);
         scratch.parts[light.index * groups.size() + group] += arrived;
       });
 }

@@ -33,7 +33,7 @@ class PathIntegrator {
 
   /// The world must outlive the integrator.
   PathIntegrator(const World& world, const PathIntegratorOptions& options)
-      : walk_(world, options.mis, options.max_transmission_depth), options_(options) {}
+      : context_(world, options.mis, options.max_transmission_depth), options_(options) {}
 
   /// Radiance of each sample. `first_hits` is empty, or as long as the samples. Adds to `rays`. Where the
   /// world has groups of lights, their parts are in Scratch::parts.
@@ -48,7 +48,7 @@ class PathIntegrator {
   void add_light(const PathState& path, const ShadingBlock& points, int lane, Scratch& scratch) const;
   void shade(PathBlock& block, std::span<FirstHit> first_hits, Scratch& scratch) const;
 
-  Walk walk_;
+  PathContext context_;
   PathIntegratorOptions options_;
 };
 

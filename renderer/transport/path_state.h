@@ -1,8 +1,8 @@
 #pragma once
-// The walk of a path through the scene, which all path-tracing integrators share: a ray arrives (intersect,
-// or sky), a light is sampled (sample_light), a direction is sampled (sample_bsdf, survives), and the next
-// ray leaves (advance). Next-event estimation and BSDF sampling are joined by multiple importance sampling
-// (Veach 1997).
+// The walk of a path through the scene, which all path-tracing integrators share: a ray arrives
+// (intersect, or sky), a light is sampled (sample_light), a direction is sampled (sample_bsdf, survives), and
+// the next ray leaves (advance). Next-event estimation and BSDF sampling are joined by multiple importance
+// sampling (Veach 1997).
 
 #include <cstdint>
 #include <optional>
@@ -13,14 +13,14 @@
 
 namespace gatelight::renderer {
 
-/// The scene of a walk and its rules.
-struct Walk {
+/// The scene of a path and its rules.
+struct PathContext {
   const World& world;
   MisRule mis;
   int max_transmission_depth;  ///< a path ends after that many scattering events to the other side
   Shading shading;
 
-  Walk(const World& where, const MisRule& rule, int max_transmissions)
+  PathContext(const World& where, const MisRule& rule, int max_transmissions)
       : world(where),
         mis(rule),
         max_transmission_depth(max_transmissions),
@@ -94,8 +94,8 @@ struct PathState {
   RayCone cone;
   Color throughput{1.0f, 1.0f, 1.0f};  ///< without radiance_scale
   Color absorption{0.0f, 0.0f, 0.0f};  ///< per metre, of the medium the ray travels in
-  Interior interior;                   ///< the volumes of World::media that it travels in
-  Departure departure;
+  MediumStack interior;                ///< the volumes of World::media that it travels in
+  PreviousVertex previous;
   /// Product of BsdfSample::radiance_scale, which is no loss of power. In double: with hundreds of nested
   /// media it leaves the range of single precision before it returns to 1.
   double radiance_scale = 1.0;
@@ -121,7 +121,7 @@ struct PathState {
         index(static_cast<std::uint32_t>(which)),
         contribution_threshold(start.contribution_threshold),
         seed(start.seed) {
-    departure.position = start.camera_ray.ray.origin;
+    previous.position = start.camera_ray.ray.origin;
   }
 
   /// Factor from radiance at the path's position to radiance at its start, without losses of power.
@@ -130,8 +130,8 @@ struct PathState {
   Color carried() const { return throughput * spectrum * scale(); }
 
   /// Whether the hit is ignored: the camera looks through a shadow catcher.
-  bool looks_through(const Walk& walk, const Hit& hit) const {
-    return surfaces == 0 && walk.world.catches(hit.instance);
+  bool looks_through(const PathContext& context, const Hit& hit) const {
+    return surfaces == 0 && context.world.catches(hit.instance);
   }
 
   /// The share of the background in the sample, for a ray that leaves the scene: above zero only without a
@@ -139,34 +139,35 @@ struct PathState {
   float background() const { return depth == 0 ? luminance(carried()) : 0.0f; }
 
   /// The emission of the sky for a ray that leaves the scene.
-  Emission sky(const Walk& walk, const Vec3& direction) const {
-    if (walk.world.separate_background && depth == 0) return {};
-    Emission sky{walk.world.environment.radiance(direction)};
-    if (sky.any()) sky.weight = sky_weight(walk.world, walk.mis, departure, direction);
+  Emission sky(const PathContext& context, const Vec3& direction) const {
+    if (context.world.separate_background && depth == 0) return {};
+    Emission sky{context.world.environment.radiance(direction)};
+    if (sky.any()) sky.weight = sky_weight(context.world, context.mis, previous, direction);
     return sky;
   }
 
   /// Handles the ray's arrival at a surface. After max_depth scattering events the path still passes panes
   /// and counts emission behind them: the light samples of the vertex before include it, and one part of the
   /// MIS sum by itself would be too dark.
-  SurfaceInteraction intersect(const Walk& walk, const Ray& ray, const Hit& hit, int max_depth) {
-    SurfaceInteraction m(walk.world, ray, hit, cone.width + cone.spread * hit.t, texture_level_number(seed));
+  SurfaceInteraction intersect(const PathContext& context, const Ray& ray, const Hit& hit, int max_depth) {
+    SurfaceInteraction m(context.world, ray, hit, cone.width + cone.spread * hit.t,
+                         texture_level_number(seed));
     if ((absorption > 0.0f).any()) {
       m.passed = (-absorption * hit.t).exp();
       throughput *= m.passed;
     }
     Surface& surface = m.surface;
     // Rays that light samples compete with take the same way as shadow rays.
-    if (!departure.delta && walk.world.coverage.is_unrefracted_glass(hit.instance)) {
+    if (!previous.delta && context.world.coverage.is_unrefracted_glass(hit.instance)) {
       m.unrefracted = true;
       surface.shading_normal = surface.geometric_normal;
     }
-    if (!walk.world.media.empty()) intersect_volume(walk.world.media, m);
+    if (!context.world.media.empty()) intersect_volume(context.world.media, m);
     if (m.unrefracted) remove_refraction(surface.material);
     if (surface.material.dispersion > 0.0f && !m.unrefracted) disperse(m);
     m.emission.radiance = surface.emission;
     if (m.emission.any())
-      m.emission.weight = emission_weight(walk.world, walk.mis, departure, hit, surface, ray.direction);
+      m.emission.weight = emission_weight(context.world, context.mis, previous, hit, surface, ray.direction);
     if (depth >= max_depth) emission_only = true;
     const bool pane = surface.material.thin_walled && surface.material.transmission > 0.0f;
     m.ends = surface.unlit || (emission_only && !pane);
@@ -180,8 +181,8 @@ struct PathState {
   }
 
   /// Adds the path to a block that is not full. `which` is the caller's number of the path.
-  void wait(const Walk& walk, const SurfaceInteraction& m, std::uint32_t which, int min_depth,
-            PathBlock& block) const {
+  void enqueue(const PathContext& context, const SurfaceInteraction& m, std::uint32_t which, int min_depth,
+               PathBlock& block) const {
     const int lane = block.points.count++;
     block.path[lane] = which;
     block.cone_width[lane] = m.cone_width;
@@ -202,14 +203,14 @@ struct PathState {
     scalar.bsdf.emplace(s.material, s.geometric_normal, s.shading_normal, s.coat_normal, m.wo, s.front);
     scalar.thin_walled = m.surface.material.thin_walled;
     scalar.only_panes = emission_only;
-    scalar.front_lights = refracts_without_mis(walk, m.surface);
+    scalar.front_lights = refracts_without_mis(context, m.surface);
     block.crossing[static_cast<std::size_t>(lane)] = {m.volume, m.unrefracted, m.same_medium};
   }
 
   /// Transmittance of the medium around the path for a light sample at this distance. One where shadow rays
   /// pass glass with an inside: these apply it where they leave the medium.
-  Color transmittance(const Walk& walk, float distance) const {
-    if (!(absorption > 0.0f).any() || !(distance < kInfinity) || walk.world.coverage.unrefracted_glass())
+  Color transmittance(const PathContext& context, float distance) const {
+    if (!(absorption > 0.0f).any() || !(distance < kInfinity) || context.world.coverage.unrefracted_glass())
       return Color::Ones();
     return (-absorption * distance).exp();
   }
@@ -225,23 +226,23 @@ struct PathState {
 
   /// Makes the next ray of a lane that is shaded, from its hit. False: the path ends, because it went through
   /// too many surfaces.
-  bool advance(const Walk& walk, const PathBlock& block, int lane, const DirectionSample& sampled,
+  bool advance(const PathContext& context, const PathBlock& block, int lane, const DirectionSample& sampled,
                const Hit& hit, Ray& ray) {
     const ShadingBlock& p = block.points;
     throughput *= sampled.weight;
-    const bool without_mis = !block.scalar.empty() && leave(walk, block, lane, sampled, hit.instance);
+    const bool without_mis = !block.scalar.empty() && leave(context, block, lane, sampled, hit.instance);
     if (sampled.through_pane) {
-      departure.travelled += hit.t;
-      departure.panes += 1;
-      departure.without_mis |= without_mis;
+      previous.travelled += hit.t;
+      previous.panes += 1;
+      previous.without_mis |= without_mis;
     } else {
       depth += 1;
       transmissions += sampled.transmitted ? 1 : 0;
-      departure = {lane_vector(p.position, lane), light_normal(p, lane), 0.0f, sampled.pdf,
-                   sampled.delta || without_mis};
+      previous = {lane_vector(p.position, lane), light_normal(p, lane), 0.0f, sampled.pdf,
+                  sampled.delta || without_mis};
     }
     surfaces += 1;
-    if (surfaces > depth + kMaxPassed || transmissions > walk.max_transmission_depth) return false;
+    if (surfaces > depth + kMaxPassed || transmissions > context.max_transmission_depth) return false;
     seed = next_seed(seed);
     ray = {lane_vector(p.next_origin, lane), kInfinity, sampled.wi, seed, hit.time};
     cone.width = block.cone_width[lane];
@@ -252,8 +253,8 @@ struct PathState {
  private:
   /// Whether only bounces find light that the surface refracts. Where shadow rays pass glass unrefracted,
   /// they would leave its inside unrefracted too.
-  static bool refracts_without_mis(const Walk& walk, const Surface& surface) {
-    return walk.world.coverage.unrefracted_glass() && !surface.material.thin_walled &&
+  static bool refracts_without_mis(const PathContext& context, const Surface& surface) {
+    return context.world.coverage.unrefracted_glass() && !surface.material.thin_walled &&
            surface.material.transmission > 0.0f;
   }
 
@@ -265,7 +266,7 @@ struct PathState {
       return;
     m.volume = media.volume_of(m.hit.instance);
     if (!media.is_there(m.volume, interior)) {
-      m.same_medium = vanish(material, boundary_number(seed));
+      m.same_medium = make_index_matched(material, boundary_number(seed));
       return;
     }
     const Medium& outside = media.beyond(m.volume, interior);
@@ -282,14 +283,14 @@ struct PathState {
 
   /// The path leaves a surface of the scalar code, perhaps into another medium. True: light samples do not
   /// compete with the light that the next ray finds.
-  bool leave(const Walk& walk, const PathBlock& block, int lane, const DirectionSample& sampled,
+  bool leave(const PathContext& context, const PathBlock& block, int lane, const DirectionSample& sampled,
              std::uint32_t instance) {
     const ScalarLane& scalar = block.scalar[static_cast<std::size_t>(lane)];
     const PathBlock::Crossing& m = block.crossing[static_cast<std::size_t>(lane)];
     radiance_scale *= static_cast<double>(scalar.radiance_scale);
     if (sampled.transmitted && (m.unrefracted || m.same_medium || !scalar.thin_walled)) {
-      absorption = cross(walk.world.media, interior, m.volume, block.front[lane],
-                         [&] { return absorption_of(walk.world.surfaces.material(instance)); });
+      absorption = cross(context.world.media, interior, m.volume, block.front[lane],
+                         [&] { return absorption_of(context.world.surfaces.material(instance)); });
     }
     return (m.same_medium && !m.unrefracted) || (sampled.transmitted && scalar.front_lights);
   }

@@ -24,7 +24,7 @@ inline constexpr int kMaxPassed = 1024;
 
 /// The vertex that sampled a ray's direction; panes do not count. The MIS weight of emission that the ray
 /// finds depends on it.
-struct Departure {
+struct PreviousVertex {
   Vec3 position = Vec3::Zero();
   Vec3 normal = Vec3::Zero();  ///< the normal that next-event estimation used there
   float travelled = 0.0f;      ///< metres between `position` and the ray's origin: through panes
@@ -40,20 +40,20 @@ struct Departure {
 };
 
 /// MIS weight of the emission of a surface that a ray in `direction` hit.
-inline float emission_weight(const World& world, const MisRule& mis, const Departure& departure,
+inline float emission_weight(const World& world, const MisRule& mis, const PreviousVertex& previous,
                              const Hit& hit, const Surface& surface, const Vec3& direction) {
-  if (!departure.competes() || surface.unlit) return 1.0f;
-  return mis.bsdf_weight(departure.pdf, world.lights.pdf_triangle(departure.position, departure.normal,
-                                                                  hit.instance, hit.primitive, direction,
-                                                                  departure.travelled + hit.t, hit.time));
+  if (!previous.competes() || surface.unlit) return 1.0f;
+  return mis.bsdf_weight(
+      previous.pdf, world.lights.pdf_triangle(previous.position, previous.normal, hit.instance, hit.primitive,
+                                              direction, previous.travelled + hit.t, hit.time));
 }
 
 /// The same for a ray that leaves the scene.
-inline float sky_weight(const World& world, const MisRule& mis, const Departure& departure,
+inline float sky_weight(const World& world, const MisRule& mis, const PreviousVertex& previous,
                         const Vec3& direction) {
-  if (!departure.competes()) return 1.0f;
-  return mis.bsdf_weight(departure.pdf,
-                         world.lights.pdf_environment(departure.position, departure.normal, direction));
+  if (!previous.competes()) return 1.0f;
+  return mis.bsdf_weight(previous.pdf,
+                         world.lights.pdf_environment(previous.position, previous.normal, direction));
 }
 
 /// The ray from a surface to a light sample. It ends before the light by the rounding error of both ends.

@@ -60,8 +60,8 @@ float distance_in_the_middle(const World& world, const Camera& camera, int width
   return along > 0.0f ? along : world.scene.bounds.diagonal().norm();
 }
 
-Interior volumes_around(const World& world, const Vec3& point) {
-  Interior around;
+MediumStack volumes_around(const World& world, const Vec3& point) {
+  MediumStack around;
   if (world.media.empty()) return around;
   Ray ray;
   ray.origin = point;

@@ -18,6 +18,6 @@ std::string view_warning(const World& world, const Camera& camera, int width, in
 float distance_in_the_middle(const World& world, const Camera& camera, int width, int height);
 
 /// The volumes of World::media around a point: those that a ray from there leaves before it enters them.
-Interior volumes_around(const World& world, const Vec3& point);
+MediumStack volumes_around(const World& world, const Vec3& point);
 
 }  // namespace gatelight::renderer

@@ -53,7 +53,7 @@ struct Waves {
   int kind_of(const PathBlock& block) const { return static_cast<int>((&block - &blocks[0][0]) / 2); }
 
   /// Adds the next ray of the path of ray `number`.
-  void go_on(std::uint32_t number, const Ray& next) {
+  void push_next_ray(std::uint32_t number, const Ray& next) {
     next_rays.push_back(next);
     next_path_of.push_back(path_of[number]);
   }
@@ -70,17 +70,17 @@ inline void prefetch(const Surfaces& surfaces, std::span<const Hit> hits, std::s
 }
 
 /// Follows the paths until none is left; `paths` and `rays` are the first wave. `first_hits` is empty or has
-/// the hits of its rays. scatter(number, path, ray, hit) shades the hit of a ray: it calls go_on() where the
-/// path has its next ray, and adds shadow rays with their pending light samples. Or it returns a block in
-/// which the path waits. shade(block) does the same for all rays of a block. arrive(pending, transmittance)
-/// is called for each light sample.
-template <typename Path, typename Pending, typename Scatter, typename Shade, typename Arrive>
+/// the hits of its rays. scatter(number, path, ray, hit) shades the hit of a ray: it calls push_next_ray()
+/// where the path has its next ray, and adds shadow rays with their pending light samples. Or it returns a
+/// block in which the path waits. shade(block) does the same for all rays of a block. accumulate(pending,
+/// transmittance) is called for each light sample.
+template <typename Path, typename Pending, typename Scatter, typename Shade, typename Accumulate>
 void trace_waves(const World& world, std::span<const Hit> first_hits, Waves<Path, Pending>& waves,
-                 RayCounts& counts, Scatter scatter, Shade shade, Arrive arrive) {
+                 RayCounts& counts, Scatter scatter, Shade shade, Accumulate accumulate) {
   const auto append = [](std::vector<Ray>& to, const std::vector<Ray>& from) {
     to.insert(to.end(), from.begin(), from.end());
   };
-  const auto empty = [&](PathBlock& block) {
+  const auto flush = [&](PathBlock& block) {
     shade(block);
     block.points.count = 0;
   };
@@ -106,11 +106,11 @@ void trace_waves(const World& world, std::span<const Hit> first_hits, Waves<Path
     for (std::uint32_t i = 0; i < rays.size(); ++i) {
       prefetch(world.surfaces, hits, i);
       PathBlock* const block = scatter(i, waves.paths[waves.path_of[i]], waves.rays[i], hits[i]);
-      if (block && block->full()) empty(*block);
+      if (block && block->full()) flush(*block);
     }
     for (auto& kind : waves.blocks) {
       for (PathBlock& block : kind) {
-        if (block.points.count > 0) empty(block);
+        if (block.points.count > 0) flush(block);
       }
     }
     waves.rays.swap(waves.next_rays);
@@ -123,7 +123,8 @@ void trace_waves(const World& world, std::span<const Hit> first_hits, Waves<Path
       world.accel.transmittance(waves.shadow_rays, waves.transmittance);
     }
     if (waves.log) append(waves.log->shadow, waves.shadow_rays);
-    for (std::size_t i = 0; i < waves.pending.size(); ++i) arrive(waves.pending[i], waves.transmittance[i]);
+    for (std::size_t i = 0; i < waves.pending.size(); ++i)
+      accumulate(waves.pending[i], waves.transmittance[i]);
   }
 }
 

@@ -43,7 +43,7 @@ std::vector<std::uint8_t> find_catchers(const scene::Scene& scene, const Backgro
 }
 
 /// Those that are built before the coverage.
-LastingParts lasting_parts(const scene::Scene& scene, const WorldOptions& options, LastingParts parts) {
+ReusableParts reusable_parts(const scene::Scene& scene, const WorldOptions& options, ReusableParts parts) {
   if (!parts.textures || scene.motion.materials) parts.textures = std::make_shared<const Textures>(scene);
   if (!parts.environment || scene.motion.image_light)
     parts.environment = std::make_shared<const Environment>(
@@ -63,10 +63,10 @@ const Accel& updated(std::shared_ptr<Accel>& accel, const scene::Scene& scene, c
 
 }  // namespace
 
-World::World(const scene::Scene& scene_in, const WorldOptions& options, const LastingParts& earlier)
+World::World(const scene::Scene& scene_in, const WorldOptions& options, const ReusableParts& earlier)
     : scene(scene_in),
       requirements(scene::compute_requirements(scene)),
-      lasting(lasting_parts(scene, options, earlier)),
+      lasting(reusable_parts(scene, options, earlier)),
       textures(*lasting.textures),
       media(scene, requirements.nested_volumes),
       environment(*lasting.environment),

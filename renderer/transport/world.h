@@ -32,7 +32,7 @@ struct WorldOptions {
 };
 
 /// The parts that a world of another time takes over, if the scene's motion leaves them as they are.
-struct LastingParts {
+struct ReusableParts {
   std::shared_ptr<const Textures> textures;
   std::shared_ptr<const Environment> environment;
   std::shared_ptr<Accel> accel;
@@ -45,13 +45,13 @@ struct World {
   /// the members, and BadOption for a shadow catcher that the scene does not have or without a separate
   /// background.
   explicit World(const scene::Scene& scene_in, const WorldOptions& options = {},
-                 const LastingParts& earlier = {});
+                 const ReusableParts& earlier = {});
   World(const World&) = delete;
   World& operator=(const World&) = delete;
 
   const scene::Scene& scene;
   scene::SceneRequirements requirements;
-  LastingParts lasting;
+  ReusableParts lasting;
   const Textures& textures;
   Media media;
   const Environment& environment;

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <iterator>
 
-#include "scene/gltf/judge.h"
 #include "scene/gltf/meshopt.h"
+#include "scene/gltf/validate.h"
 
 namespace gatelight::scene::gltf {
 namespace {
@@ -35,10 +35,10 @@ Document::Document(const std::filesystem::path& path, const LoadOptions& options
       uris_{path.parent_path(), options.allow_external},
       container_(open_container(path, warnings)),
       read_bytes_(container_.file.size()) {
-  Judged judged = judge(container_.json, file_, options, warnings);
-  json& root = judged.root;
-  animations_ = std::move(judged.animations);
-  channels_ = std::move(judged.channels);
+  ValidatedJson validated = validate(container_.json, file_, options, warnings);
+  json& root = validated.root;
+  animations_ = std::move(validated.animations);
+  channels_ = std::move(validated.channels);
   check_model_size(model_bytes(root));
   take_binary(root, warnings);
   model_ = read_model(std::move(root), file_, [&](std::size_t i, const std::string& uri, std::size_t length) {

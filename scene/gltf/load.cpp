@@ -11,7 +11,7 @@
 #include "base/platform/memory.h"
 #include "base/platform/threads.h"
 #include "scene/bake.h"
-#include "scene/doubled_lamps.h"
+#include "scene/coincident_emitters.h"
 #include "scene/finish.h"
 #include "scene/gltf.h"
 #include "scene/gltf/animation.h"
@@ -204,7 +204,7 @@ class Loader {
     instance.hidden = placement.hidden;
     instance.transform = rounded(placement.transform);
     // Computed in double: the product of three small scales would underflow in single precision.
-    instance.mirrors = instance.transform.linear().cast<double>().determinant() < 0.0;
+    instance.swaps_handedness = instance.transform.linear().cast<double>().determinant() < 0.0;
     if (instance.moves) thicken(instance.transform);
   }
 

@@ -14,7 +14,7 @@
 
 namespace gatelight::tests {
 
-class ErrorConsensus : public FolderTest {
+class Faults : public FolderTest {
  protected:
   /// A square under a white sky.
   std::vector<std::string> words(const std::vector<std::string>& more) const {

@@ -18,7 +18,7 @@ namespace {
 
 using testing::report_extreme;
 
-class FaultyDisk : public ErrorConsensus {};
+class FaultyDisk : public Faults {};
 
 const std::vector<std::string> kKinds = {"a.exr", "a.png", "stats.json", "checkpoint", "cache"};
 

@@ -10,7 +10,7 @@ namespace {
 
 using testing::report_extreme;
 
-class Libraries : public ErrorConsensus {
+class Libraries : public Faults {
  protected:
   /// Runs a copy of the program without the files beside it.
   Output run_alone(std::vector<std::string> arguments) const {

@@ -22,7 +22,7 @@ constexpr bool kSanitized = true;
 constexpr bool kSanitized = false;
 #endif
 
-class Limits : public ErrorConsensus {
+class Limits : public Faults {
  protected:
   Output run_within(rlim_t mebibytes, const std::vector<std::string>& more) const {
     return run_gatelight(words(more), [=] {

@@ -19,7 +19,7 @@ class DecimalComma : public std::numpunct<char> {
   std::string do_grouping() const override { return "\3"; }
 };
 
-class CommaLocale : public ErrorConsensus {
+class CommaLocale : public Faults {
  protected:
   /// Sets a decimal comma in C, by a locale that is made here, and in C++.
   bool begin() {

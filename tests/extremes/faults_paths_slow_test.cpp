@@ -11,7 +11,7 @@ namespace {
 
 using testing::report_extreme;
 
-class Names : public ErrorConsensus {};
+class Names : public Faults {};
 
 std::string encoded(const std::string& name) {
   static constexpr const char* kDigits = "0123456789ABCDEF";

@@ -10,7 +10,7 @@ namespace {
 
 using testing::report_extreme;
 
-class Stopped : public ErrorConsensus {
+class Stopped : public Faults {
  protected:
   std::vector<std::string> learning(const std::string& output, const std::vector<std::string>& more) const {
     std::vector<std::string> all =

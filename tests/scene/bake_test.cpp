@@ -55,7 +55,7 @@ Scene make_scene(const std::vector<int>& meshes_of_instances, std::uint32_t tria
     instance.mesh = m;
     ++seed;
     instance.transform = make_transform(seed, seed % 2 == 0);
-    instance.mirrors = instance.transform.linear().determinant() < 0.0f;
+    instance.swaps_handedness = instance.transform.linear().determinant() < 0.0f;
     scene.instances.push_back(instance);
   }
   return scene;
@@ -70,7 +70,7 @@ void expect_same_world(const Scene& a, const Scene& b) {
     ASSERT_EQ(a.mesh_of(ia).triangles.size(), b.mesh_of(ib).triangles.size());
     for (std::uint32_t t = 0; t < a.mesh_of(ia).triangles.size(); ++t) {
       std::array<Vec3, 3> pb = world_triangle(b, ib, t);
-      if (ia.mirrors != ib.mirrors) std::swap(pb[1], pb[2]);
+      if (ia.swaps_handedness != ib.swaps_handedness) std::swap(pb[1], pb[2]);
       for (std::size_t k = 0; k < 3; ++k) {
         EXPECT_TRUE(world_triangle(a, ia, t)[k].isApprox(pb[k], 1e-5f)) << i << " " << t;
       }
@@ -90,11 +90,11 @@ TEST(Bake, BakedEqualsNotBaked) {
 
 TEST(Bake, AMirroredMeshKeepsItsFront) {
   Scene scene = make_scene({0, 1});  // seeds 101 and 102: plain and mirrored
-  ASSERT_TRUE(scene.instances[1].mirrors);
+  ASSERT_TRUE(scene.instances[1].swaps_handedness);
   bake_transforms(scene);
   for (const Instance& instance : scene.instances) {
     EXPECT_TRUE(instance.baked);
-    EXPECT_FALSE(instance.mirrors);
+    EXPECT_FALSE(instance.swaps_handedness);
     const Mesh& mesh = scene.mesh_of(instance);
     for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
       // The vertex normals still equal the triangles' normals, on the same side.
@@ -144,7 +144,7 @@ TEST(Bake, SharedMeshesAreCopiedWithinTheBudget) {
 TEST(Bake, FlatInstancesAreAlwaysCopied) {
   Scene scene = make_scene({0, 0, 0});
   scene.instances[1].transform.linear().col(1).setZero();
-  scene.instances[1].mirrors = false;
+  scene.instances[1].swaps_handedness = false;
   bake_transforms(scene, 0);
   EXPECT_FALSE(scene.instances[0].baked);
   EXPECT_TRUE(scene.instances[1].baked) << "no ray can be carried into its space";
@@ -176,7 +176,7 @@ TEST(Bake, TinyAndHugeScalesKeepUnitNormals) {
     Scene scene = make_scene({0});
     scene.instances[0].transform = Affine::Identity();
     scene.instances[0].transform.linear() *= scale;
-    scene.instances[0].mirrors = false;
+    scene.instances[0].swaps_handedness = false;
     const std::vector<Vec3> before = scene.meshes[0].normals;
     bake_transforms(scene);
     for (std::size_t i = 0; i < before.size(); ++i)
@@ -189,7 +189,7 @@ TEST(Bake, AMirroringNodeKeepsItsFront) {
   file.node({{"mesh", file.mesh(file.triangle())}, {"scale", {-1, 1, 1}}});
   for (const bool bake : {false, true}) {
     const Scene scene = file.load({.bake_transforms = bake});
-    EXPECT_EQ(scene.instances[0].mirrors, !bake);
+    EXPECT_EQ(scene.instances[0].swaps_handedness, !bake);
     EXPECT_TRUE(world_normal(scene, scene.instances[0], 0).isApprox(Vec3(0, 0, 1)));
   }
 }
@@ -197,7 +197,7 @@ TEST(Bake, AMirroringNodeKeepsItsFront) {
 TEST(Bake, ATinyMirroringScaleIsDetected) {
   GltfBuilder file;
   file.node({{"mesh", file.mesh(file.triangle())}, {"scale", {-1e-16, 1e-16, 1e-16}}});
-  EXPECT_TRUE(file.load({.bake_transforms = false}).instances.at(0).mirrors);
+  EXPECT_TRUE(file.load({.bake_transforms = false}).instances.at(0).swaps_handedness);
 }
 
 }  // namespace

@@ -165,7 +165,7 @@ TEST(NestedVolumes, SharedMeshesCountForEachPlacement) {
   for (const float scale : {3.0f, -0.5f}) {
     Instance copy = scene.instances[0];
     copy.transform.scale(scale);
-    copy.mirrors = scale < 0.0f;
+    copy.swaps_handedness = scale < 0.0f;
     copy.placement = static_cast<int>(scene.instances.size());
     scene.instances.push_back(copy);
   }

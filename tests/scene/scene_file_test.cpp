@@ -18,7 +18,7 @@ void expect_same_scene(const Scene& a, const Scene& b) {
   for (std::size_t i = 0; i < a.instances.size(); ++i) {
     EXPECT_TRUE(a.instances[i].transform.matrix() == b.instances[i].transform.matrix()) << i;
     EXPECT_EQ(a.instances[i].hidden, b.instances[i].hidden) << i;
-    EXPECT_EQ(a.instances[i].mirrors, b.instances[i].mirrors) << i;
+    EXPECT_EQ(a.instances[i].swaps_handedness, b.instances[i].swaps_handedness) << i;
     EXPECT_EQ(a.instances[i].mesh, b.instances[i].mesh) << i;
   }
   ASSERT_EQ(a.meshes.size(), b.meshes.size());

@@ -95,7 +95,7 @@ TEST(CacheFlags, EachFlagOfAnswersSetsItsMember) {
       read_cache(words_of("--cache-holds indirect --query-at spread --cache-roughness 0.5 "
                           "--spread-threshold 0.125 --query-precision bf16 --device vulkan:1 "
                           "--cache-in i.safetensors --cache-out o.safetensors"));
-  EXPECT_EQ(answers.holds, renderer::CacheHolds::indirect);
+  EXPECT_EQ(answers.component, renderer::CachedComponent::indirect);
   EXPECT_EQ(answers.query_at, renderer::QueryAt::spread);
   EXPECT_EQ(answers.min_roughness, 0.5f);
   EXPECT_EQ(answers.spread_threshold, 0.125f);
@@ -103,7 +103,7 @@ TEST(CacheFlags, EachFlagOfAnswersSetsItsMember) {
   EXPECT_EQ(answers.device, "vulkan:1");
   EXPECT_EQ(answers.cache_in, "i.safetensors");
   EXPECT_EQ(answers.cache_out, "o.safetensors");
-  EXPECT_EQ(read_cache(words_of("--view cache")).view, renderer::CacheView::cache);
+  EXPECT_EQ(read_cache(words_of("--view cache")).view, renderer::CacheOutput::cache);
 }
 
 TEST(CacheFlags, AutoAndOffLeaveNumbersUnset) {

@@ -24,9 +24,10 @@ class Words : public ::testing::Test {};
 
 using Enumerations =
     ::testing::Types<Integrator, MisHeuristic, DirectLight, PixelFilter, NanPolicy, Aov, MatteKind,
-                     SamplerKind, LightSelection, CacheHolds, QueryAt, CacheView, TrainingSource, CachePreset,
-                     Tonemap, neural::FeatureEncoding, neural::ResolutionRule, neural::NodeStorage,
-                     neural::Loss, neural::FeatureUpdate, neural::FeatureStep, neural::FeaturePrecision>;
+                     SamplerKind, LightSelection, CachedComponent, QueryAt, CacheOutput, TrainingSource,
+                     CachePreset, Tonemap, neural::FeatureEncoding, neural::ResolutionRule,
+                     neural::NodeStorage, neural::Loss, neural::FeatureUpdate, neural::FeatureStep,
+                     neural::FeaturePrecision>;
 TYPED_TEST_SUITE(Words, Enumerations);
 
 TYPED_TEST(Words, EachEnumeratorHasANameThatIsParsedBack) {

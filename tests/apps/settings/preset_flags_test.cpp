@@ -34,7 +34,7 @@ TEST(PresetFlags, EveryFlagOverridesThemInAnyOrder) {
   EXPECT_EQ(first.render.cache.query_at, renderer::QueryAt::gather);
   EXPECT_EQ(first.render.cache.candidates, 2);
   EXPECT_EQ(first.render.cache.batch, 49152u) << "the preset's";
-  EXPECT_EQ(first.render.cache.holds, renderer::CacheHolds::all) << "the preset's";
+  EXPECT_EQ(first.render.cache.component, renderer::CachedComponent::all) << "the preset's";
   EXPECT_EQ(first.outputs, Words{"a.exr"});
   EXPECT_EQ(resolved_options(first), resolved_options(read_flags(after)));
 }

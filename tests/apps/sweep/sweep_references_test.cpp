@@ -91,7 +91,7 @@ TEST_F(SweepReferences, AreSharedByCellsThatEstimateTheSame) {
   EXPECT_NE(plan(reach, ReferenceKind::ao).key, plan(cell, ReferenceKind::ao).key);
   // What the cache stores is what it should answer. It matters only to the bare view.
   RenderSettings holds = cell;
-  holds.render.cache.holds = renderer::CacheHolds::all;
+  holds.render.cache.component = renderer::CachedComponent::all;
   EXPECT_EQ(plan(holds, ReferenceKind::path).key, key);
   EXPECT_NE(plan(holds, ReferenceKind::cache).key, plan(cell, ReferenceKind::cache).key);
 }

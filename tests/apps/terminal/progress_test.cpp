@@ -72,7 +72,8 @@ TEST(Progress, TimeLeftAndSpeedCountFromTheFirstUpdateOfThePhase) {
 }
 
 TEST(Progress, TimeOrErrorIsShownWhereItEndsThePicture) {
-  const Progress timed = {.phase = Phase::render, .spp_done = 2, .spp = renderer::kOpenSpp, .samples = 2.0};
+  const Progress timed = {
+      .phase = Phase::render, .spp_done = 2, .spp = renderer::kUnlimitedSpp, .samples = 2.0};
   EXPECT_THAT(report(ProgressMode::bar, {timed}), HasSubstr("  2 spp  0 samples/s"));
   const Progress to_error = {.phase = Phase::render, .spp_done = 2, .spp = 8, .samples = 2.0, .error = 0.031};
   EXPECT_THAT(report(ProgressMode::bar, {to_error}), HasSubstr("2/8 spp  error 3.1 %  "));

@@ -25,17 +25,17 @@ using testing::ViewedWorld;
 const double kLearningSignificance = testing::sidak(1e-4, 9);
 
 struct Learned {
-  CacheHolds holds;
+  CachedComponent holds;
   neural::FeatureEncoding encoding;
   MeasuredError error;
 };
 
 // Errors of the mean answer, measured with the seeds 1 to 32.
 constexpr Learned kLearned[] = {
-    {CacheHolds::all, neural::FeatureEncoding::gate, {-0.0015, 0.0122, 32}},
-    {CacheHolds::no_delta, neural::FeatureEncoding::gate, {-0.0015, 0.0122, 32}},
-    {CacheHolds::indirect, neural::FeatureEncoding::gate, {-0.0034, 0.0175, 32}},
-    {CacheHolds::no_delta, neural::FeatureEncoding::hash_grid, {-0.0013, 0.0123, 32}}};
+    {CachedComponent::all, neural::FeatureEncoding::gate, {-0.0015, 0.0122, 32}},
+    {CachedComponent::no_delta, neural::FeatureEncoding::gate, {-0.0015, 0.0122, 32}},
+    {CachedComponent::indirect, neural::FeatureEncoding::gate, {-0.0034, 0.0175, 32}},
+    {CachedComponent::no_delta, neural::FeatureEncoding::hash_grid, {-0.0013, 0.0123, 32}}};
 constexpr std::pair<TrainingSource, MeasuredError> kSources[] = {
     {TrainingSource::camera, {-0.0009, 0.0107, 32}}, {TrainingSource::surface, {-0.0023, 0.0108, 32}}};
 constexpr MeasuredError kAttenuatedError = {-0.0018, 0.0039, 32};
@@ -43,7 +43,7 @@ constexpr MeasuredError kAttenuatedError = {-0.0018, 0.0039, 32};
 RenderOptions options_of(const Learned& learned, std::uint32_t seed) {
   RenderOptions options = small_session(Integrator::nrc);
   options.seed = seed;
-  options.cache.holds = learned.holds;
+  options.cache.component = learned.holds;
   options.cache.encoding = learned.encoding;
   options.cache.hash_grid.levels = 4;
   options.cache.hash_grid.log2_table_size = 12;
@@ -53,7 +53,7 @@ RenderOptions options_of(const Learned& learned, std::uint32_t seed) {
 /// The light that is stored of a furnace with an emission of 30.
 double stored_light(const Learned& learned) {
   const double sent = 30.0 / (1.0 - 0.6);
-  return learned.holds == CacheHolds::indirect ? sent - 30.0 : sent;
+  return learned.holds == CachedComponent::indirect ? sent - 30.0 : sent;
 }
 
 TEST(CacheLearning, AClosedFurnaceSendsEmissionOverOneMinusAlbedo) {
@@ -110,7 +110,7 @@ double attenuated_answer(std::uint32_t seed) {
   const ViewedWorld viewed(testing::closed_furnace(0.6f, 1.0f));
   RenderOptions options = small_session(Integrator::nrc);
   options.seed = seed;
-  options.cache.holds = CacheHolds::all;
+  options.cache.component = CachedComponent::all;
   options.cache.self_training.start_step = 0;
   options.cache.self_training.vertices = 1;
   options.cache.self_training.full_fraction = 0.0f;

@@ -33,9 +33,9 @@ inline SurfacePoints seen_points(const testing::ViewedWorld& viewed, const Cache
       viewed.world.accel.intersect(std::span(&ray.ray, 1), std::span(&hit, 1), true);
       if (!hit) continue;
       const Surface surface = viewed.world.surfaces.at(hit, ray.ray.direction, 0.0f, 0.5f);
-      points.push_back(
-          surface_point(hit, side_of(surface.front, viewed.world.scene.instances[hit.instance].mirrors),
-                        -ray.ray.direction, surface, surface.material.base_color));
+      points.push_back(surface_point(
+          hit, side_of(surface.front, viewed.world.scene.instances[hit.instance].swaps_handedness),
+          -ray.ray.direction, surface, surface.material.base_color));
     }
   }
   return points;

@@ -23,22 +23,22 @@ using testing::ViewedWorld;
 const double kFurnaceSignificance = testing::sidak(1e-4, 15);
 
 struct Setting {
-  CacheHolds holds;
+  CachedComponent holds;
   QueryAt query_at;
   MeasuredError error;
 };
 
 // Errors of the mean radiance, measured with the seeds 1 to 32.
-constexpr Setting kSettings[] = {{CacheHolds::all, QueryAt::primary, {0.0010, 0.0055, 32}},
-                                 {CacheHolds::all, QueryAt::gather, {0.0006, 0.0036, 32}},
-                                 {CacheHolds::all, QueryAt::spread, {0.0006, 0.0037, 32}},
-                                 {CacheHolds::all, QueryAt::none, {0.0001, 0.0047, 32}},
-                                 {CacheHolds::no_delta, QueryAt::primary, {0.0010, 0.0055, 32}},
-                                 {CacheHolds::no_delta, QueryAt::gather, {0.0006, 0.0036, 32}},
-                                 {CacheHolds::no_delta, QueryAt::spread, {0.0006, 0.0037, 32}},
-                                 {CacheHolds::indirect, QueryAt::primary, {0.0009, 0.0042, 32}},
-                                 {CacheHolds::indirect, QueryAt::gather, {0.0005, 0.0029, 32}},
-                                 {CacheHolds::indirect, QueryAt::spread, {0.0005, 0.0029, 32}}};
+constexpr Setting kSettings[] = {{CachedComponent::all, QueryAt::primary, {0.0010, 0.0055, 32}},
+                                 {CachedComponent::all, QueryAt::gather, {0.0006, 0.0036, 32}},
+                                 {CachedComponent::all, QueryAt::spread, {0.0006, 0.0037, 32}},
+                                 {CachedComponent::all, QueryAt::none, {0.0001, 0.0047, 32}},
+                                 {CachedComponent::no_delta, QueryAt::primary, {0.0010, 0.0055, 32}},
+                                 {CachedComponent::no_delta, QueryAt::gather, {0.0006, 0.0036, 32}},
+                                 {CachedComponent::no_delta, QueryAt::spread, {0.0006, 0.0037, 32}},
+                                 {CachedComponent::indirect, QueryAt::primary, {0.0009, 0.0042, 32}},
+                                 {CachedComponent::indirect, QueryAt::gather, {0.0005, 0.0029, 32}},
+                                 {CachedComponent::indirect, QueryAt::spread, {0.0005, 0.0029, 32}}};
 constexpr MeasuredError kMixedError = {0.0001, 0.0050, 32};
 constexpr MeasuredError kViewError = {0.0016, 0.0092, 32};
 
@@ -54,7 +54,7 @@ Picture furnace(const Setting& setting, std::uint32_t seed, CacheStatistics& sta
   SceneBuilder builder = testing::closed_furnace(0.6f, 2.0f);
   RenderOptions options = cached_picture(Integrator::nrc);
   options.seed = seed;
-  options.cache.holds = setting.holds;
+  options.cache.component = setting.holds;
   options.cache.query_at = setting.query_at;
   Renderer renderer(builder.scene(), options);
   const Picture picture = renderer.render();
@@ -112,7 +112,7 @@ double mean_of_the_caches_view(QueryAt at, std::uint32_t seed) {
   SceneBuilder builder = testing::closed_furnace(0.6f, 2.0f);
   RenderOptions options = cached_picture(Integrator::nrc);
   options.seed = seed;
-  options.cache.view = CacheView::cache;
+  options.cache.view = CacheOutput::cache;
   options.cache.query_at = at;
   return moments_of(Renderer(builder.scene(), options).render()).mean();
 }

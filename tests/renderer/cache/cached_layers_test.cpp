@@ -21,13 +21,13 @@ using testing::ViewedWorld;
 TEST(CachedLayers, CacheRadianceIsThePictureOfPathsThatEndAtTheFirstHit) {
   // A mirror and matte walls: the part of a path before the query has no noise.
   const SceneBuilder builder = walls_and_mirror();
-  for (const CacheHolds holds : {CacheHolds::all, CacheHolds::no_delta}) {
+  for (const CachedComponent holds : {CachedComponent::all, CachedComponent::no_delta}) {
     // Where the cache does not store the sun, other lights would take samples from it.
-    const bool sky = holds == CacheHolds::all;
+    const bool sky = holds == CachedComponent::all;
     const ViewedWorld viewed(builder, {.constant = sky ? Color(0.2f, 0.3f, 0.5f) : Color(Color::Zero())});
     RenderOptions options = cached_picture(Integrator::nrc);
     options.aovs = {Aov::cache_radiance};
-    options.cache.holds = holds;
+    options.cache.component = holds;
     CacheSession session(viewed.world, viewed.camera, viewed.region, options);
     session.train(20, {});
     options.cache.query_at = QueryAt::primary;
@@ -53,22 +53,23 @@ TEST(CachedLayers, WithoutQueriesTheCachesViewIsTheMeanOfRecords) {
   sun.direction = Vec3(0.6f, -0.8f, 0.0f);
   sun.intensity = Color(1.0f, 2.0f, 3.0f);
   builder.scene().lights = {sun};
-  for (const CacheHolds holds : {CacheHolds::all, CacheHolds::no_delta, CacheHolds::indirect}) {
+  for (const CachedComponent holds :
+       {CachedComponent::all, CachedComponent::no_delta, CachedComponent::indirect}) {
     RenderOptions options = cached_picture(Integrator::nrc);
     options.environment.constant = Color(0.1f, 0.3f, 0.9f);
     options.sampler = SamplerKind::independent;
     options.filter = PixelFilter::box;
     options.cache.train_steps = 0;
-    options.cache.view = CacheView::cache;
+    options.cache.view = CacheOutput::cache;
     options.cache.query_at = QueryAt::none;
-    options.cache.holds = holds;
+    options.cache.component = holds;
     const Picture picture = Renderer(builder.scene(), options).render();
     for (std::size_t c = 0; c < 3; ++c) {
       const auto sky = static_cast<double>(options.environment.constant[static_cast<Eigen::Index>(c)]);
       const double sunlight = static_cast<double>(c + 1) * 0.8 / M_PI;
-      const double expected = holds == CacheHolds::all        ? sky + sunlight
-                              : holds == CacheHolds::no_delta ? sky
-                                                              : 0.0;
+      const double expected = holds == CachedComponent::all        ? sky + sunlight
+                              : holds == CachedComponent::no_delta ? sky
+                                                                   : 0.0;
       const Moments moments = testing::channel_moments(picture, c);
       EXPECT_GT(testing::mean_p_value(moments, expected, 1e-4), testing::sidak(1e-4, 11))
           << moments.mean() << " +- " << moments.standard_error() << ", expected " << expected;

@@ -80,7 +80,7 @@ SceneBuilder mixed_scene() {
 }
 
 struct Setting {
-  CacheHolds holds;
+  CachedComponent holds;
   QueryAt query_at;
   float min_roughness;
 };
@@ -103,7 +103,7 @@ class Pictures {
 
   RenderOptions options(const Setting& setting) const {
     RenderOptions options = options_;
-    options.cache.holds = setting.holds;
+    options.cache.component = setting.holds;
     options.cache.query_at = setting.query_at;
     options.cache.min_roughness = setting.min_roughness;
     return options;
@@ -272,7 +272,8 @@ TEST_P(CachedLight, TrainingSamplesThatEndInUnbiasedAnswersHaveThePathTracersMea
 
 std::vector<Setting> settings() {
   std::vector<Setting> all;
-  for (const CacheHolds holds : {CacheHolds::all, CacheHolds::no_delta, CacheHolds::indirect}) {
+  for (const CachedComponent holds :
+       {CachedComponent::all, CachedComponent::no_delta, CachedComponent::indirect}) {
     for (const QueryAt at : {QueryAt::primary, QueryAt::gather, QueryAt::spread}) {
       for (const float roughness : {0.0f, 0.3f}) all.push_back({holds, at, roughness});
     }
@@ -284,9 +285,10 @@ INSTANTIATE_TEST_SUITE_P(Settings, CachedLight, ::testing::ValuesIn(settings()),
                          [](const auto& setting) { return name_of(setting.param); });
 
 TEST(CachedLightDefects, TargetsAndCompositionThatDisagreeAreDetected) {
-  const CacheHolds every[] = {CacheHolds::all, CacheHolds::no_delta, CacheHolds::indirect};
-  for (const CacheHolds composed : every) {
-    for (const CacheHolds learned : every) {
+  const CachedComponent every[] = {CachedComponent::all, CachedComponent::no_delta,
+                                   CachedComponent::indirect};
+  for (const CachedComponent composed : every) {
+    for (const CachedComponent learned : every) {
       if (composed == learned) continue;
       std::string what;
       const auto moments = moments_of(
@@ -297,7 +299,7 @@ TEST(CachedLightDefects, TargetsAndCompositionThatDisagreeAreDetected) {
 }
 
 TEST(CachedLightPaths, WithoutQueriesEveryPathEqualsThePathTracers) {
-  const Setting setting{CacheHolds::no_delta, QueryAt::none, 0.3f};
+  const Setting setting{CachedComponent::no_delta, QueryAt::none, 0.3f};
   const std::vector<Color> expected = pictures().reference(5, 2);
   const std::vector<Color> traced = pictures().answered(setting, setting, 5, 2);
   ASSERT_EQ(traced.size(), expected.size());

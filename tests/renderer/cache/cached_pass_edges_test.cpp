@@ -38,16 +38,17 @@ void expect_right_picture(SceneBuilder builder, const Color& sky, const Color& e
   struct Kind {
     neural::FeatureEncoding encoding;
     QueryAt query_at;
-    CacheHolds holds;
+    CachedComponent holds;
   };
-  for (const Kind& kind : {Kind{neural::FeatureEncoding::gate, QueryAt::primary, CacheHolds::all},
-                           Kind{neural::FeatureEncoding::gate, QueryAt::gather, CacheHolds::indirect},
-                           Kind{neural::FeatureEncoding::hash_grid, QueryAt::gather, CacheHolds::no_delta}}) {
+  for (const Kind& kind :
+       {Kind{neural::FeatureEncoding::gate, QueryAt::primary, CachedComponent::all},
+        Kind{neural::FeatureEncoding::gate, QueryAt::gather, CachedComponent::indirect},
+        Kind{neural::FeatureEncoding::hash_grid, QueryAt::gather, CachedComponent::no_delta}}) {
     RenderOptions options = small(Integrator::nrc);
     options.environment.constant = sky;
     options.cache.encoding = kind.encoding;
     options.cache.query_at = kind.query_at;
-    options.cache.holds = kind.holds;
+    options.cache.component = kind.holds;
     Renderer renderer(builder.scene(), options);
     const Picture picture = renderer.render();
     expect_sound(picture);

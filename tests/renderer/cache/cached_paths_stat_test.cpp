@@ -23,7 +23,7 @@ const double kPathSignificance = testing::sidak(1e-4, 4);
 PathBatch look_down(const scene::Scene& scene, const PathPlan& plan, std::size_t paths) {
   const World world(scene, {.environment = {.constant = Color::Constant(static_cast<float>(kSky))}});
   RenderOptions options;
-  options.cache.holds = CacheHolds::all;
+  options.cache.component = CachedComponent::all;
   std::vector<PathStart> starts(paths);
   for (std::uint32_t i = 0; i < starts.size(); ++i) {
     CameraSample& sample = starts[i].sample;

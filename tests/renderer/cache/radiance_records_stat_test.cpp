@@ -63,30 +63,30 @@ constexpr float kEmission = 1.5f;
 constexpr double kSent = 1.5 / (1.0 - 0.6);
 
 /// Cached light over the reflectance, in a furnace.
-double cached_in_furnace(CacheHolds holds) {
-  return holds == CacheHolds::indirect ? kSent - 1.5 : kSent;
+double cached_in_furnace(CachedComponent holds) {
+  return holds == CachedComponent::indirect ? kSent - 1.5 : kSent;
 }
 
-class RadianceRecordsStat : public ::testing::TestWithParam<CacheHolds> {};
+class RadianceRecordsStat : public ::testing::TestWithParam<CachedComponent> {};
 
 TEST_P(RadianceRecordsStat, TargetsOfAClosedFurnaceAreItsLight) {
   const ViewedWorld viewed(testing::closed_furnace(kAlbedo, kEmission));
   RenderOptions options = deep();
-  options.cache.holds = GetParam();
+  options.cache.component = GetParam();
   expect_mean(first_targets(viewed, options, 8000), cached_in_furnace(GetParam()));
 }
 
 TEST_P(RadianceRecordsStat, AveragedTargetsHaveTheSameMeanAndLessNoise) {
   const ViewedWorld viewed(testing::closed_furnace(kAlbedo, kEmission));
   RenderOptions options = deep();
-  options.cache.holds = GetParam();
+  options.cache.component = GetParam();
   options.cache.path_length = 2;
   const StoredSurfaces stored;
   const CachedPaths paths(viewed.world, cached_paths_options(options), stored);
   const TrainingPoints chosen(viewed.world, viewed.camera, viewed.region, options, {}, nullptr);
   RadianceRecords records(paths, chosen, options, {});
   // Two scattering events: emission reflected once or twice.
-  const double expected = GetParam() == CacheHolds::indirect ? 0.6 * 1.5 : 1.5 + 0.6 * 1.5;
+  const double expected = GetParam() == CachedComponent::indirect ? 0.6 * 1.5 : 1.5 + 0.6 * 1.5;
   double variance[2];
   for (const std::size_t i : {std::size_t{0}, std::size_t{1}}) {
     options.cache.samples_per_point = i == 0 ? 1 : 8;
@@ -125,11 +125,11 @@ TEST_P(RadianceRecordsStat, SunAndSkyOverAPlaneGiveTheirCachedShare) {
   builder.scene().lights = {sun};
   const ViewedWorld viewed(builder, {.constant = Color(0.1f, 0.3f, 0.9f)});
   RenderOptions options = deep();
-  options.cache.holds = GetParam();
+  options.cache.component = GetParam();
   const double sunlight = 2.0 * 0.8 / M_PI;
-  const double expected = GetParam() == CacheHolds::all        ? 0.3 + sunlight
-                          : GetParam() == CacheHolds::no_delta ? 0.3
-                                                               : 0.0;
+  const double expected = GetParam() == CachedComponent::all        ? 0.3 + sunlight
+                          : GetParam() == CachedComponent::no_delta ? 0.3
+                                                                    : 0.0;
   expect_mean(first_targets(viewed, options, 4000), expected);
 }
 
@@ -154,22 +154,22 @@ TEST_P(RadianceRecordsStat, TintedPanesWeightTheCachedLightBehindThem) {
   builder.scene().cameras.push_back(view_from(Vec3(0, 0.5f, 0), Vec3(0, 0, 0)));
   const ViewedWorld viewed(builder);
   RenderOptions options = deep();
-  options.cache.holds = GetParam();
+  options.cache.component = GetParam();
   options.direct = DirectLight::bsdf;  // so wide a lamp so near is beyond the digits of light samples
   const double light = kShine / (1.0 - kCeiling * kFloor * kTint * kTint);
   // Light that misses the ends of the planes is 1e-4 of all.
   expect_mean(first_targets(viewed, options, 8000),
-              kTint * (GetParam() == CacheHolds::indirect ? light - kShine : light), 1e-4);
+              kTint * (GetParam() == CachedComponent::indirect ? light - kShine : light), 1e-4);
 }
 
 TEST_P(RadianceRecordsStat, FourScatteringEventsAreFourTermsOfTheSum) {
   const ViewedWorld viewed(testing::closed_furnace(kAlbedo, kEmission));
   RenderOptions options = deep();
-  options.cache.holds = GetParam();
+  options.cache.component = GetParam();
   for (const int length : {1, 4}) {
     options.cache.path_length = length;
     double expected = 0.0;
-    for (int k = GetParam() == CacheHolds::indirect ? 1 : 0; k < length; ++k)
+    for (int k = GetParam() == CachedComponent::indirect ? 1 : 0; k < length; ++k)
       expected += 1.5 * std::pow(0.6, k);
     const Moments m = first_targets(viewed, options, 8000);
     expect_mean(m, expected);
@@ -179,7 +179,7 @@ TEST_P(RadianceRecordsStat, FourScatteringEventsAreFourTermsOfTheSum) {
 TEST_P(RadianceRecordsStat, EndsInAnExactCacheKeepTheMean) {
   const ViewedWorld viewed(testing::closed_furnace(kAlbedo, kEmission));
   RenderOptions options = deep();
-  options.cache.holds = GetParam();
+  options.cache.component = GetParam();
   const double cached = cached_in_furnace(GetParam());
   for (const int vertices : {1, 2}) {
     options.cache.self_training.vertices = vertices;
@@ -190,25 +190,26 @@ TEST_P(RadianceRecordsStat, EndsInAnExactCacheKeepTheMean) {
 TEST_P(RadianceRecordsStat, AttenuationWeakensOnlyTheEnds) {
   const ViewedWorld viewed(testing::closed_furnace(kAlbedo, kEmission));
   RenderOptions options = deep();
-  options.cache.holds = GetParam();
+  options.cache.component = GetParam();
   options.cache.self_training.vertices = 1;
   options.cache.self_training.full_fraction = 0.0f;
   options.cache.self_training.attenuation = 0.25f;
   const double cached = cached_in_furnace(GetParam());
   // S of the second vertex: a quarter of the answer, with all light that is not cached.
-  const double direct = GetParam() == CacheHolds::indirect ? 1.5 : 0.0;
+  const double direct = GetParam() == CachedComponent::indirect ? 1.5 : 0.0;
   const double scattered = 0.6 * (0.25 * cached + direct);
-  const double expected = GetParam() == CacheHolds::indirect ? scattered : 1.5 + scattered;
+  const double expected = GetParam() == CachedComponent::indirect ? scattered : 1.5 + scattered;
   expect_mean(first_targets(viewed, options, 8000, true, static_cast<float>(cached)), expected);
 }
 
-std::string name_of(CacheHolds holds) {
+std::string name_of(CachedComponent holds) {
   const char* const names[] = {"All", "NoDelta", "Indirect"};
   return names[static_cast<std::size_t>(holds)];
 }
 
 INSTANTIATE_TEST_SUITE_P(Holds, RadianceRecordsStat,
-                         ::testing::Values(CacheHolds::all, CacheHolds::no_delta, CacheHolds::indirect),
+                         ::testing::Values(CachedComponent::all, CachedComponent::no_delta,
+                                           CachedComponent::indirect),
                          [](const auto& holds) { return name_of(holds.param); });
 
 TEST(RadianceRecordsOfGlass, RecordsBehindReflectionAndRefractionAreNotMixed) {
@@ -233,7 +234,7 @@ TEST(RadianceRecordsOfGlass, RecordsBehindReflectionAndRefractionAreNotMixed) {
   builder.scene().cameras.push_back(view_from(Vec3(0, 0, 2), Vec3(0, 0, 0), 0.3f));
   const ViewedWorld viewed(builder);
   RenderOptions options = deep();
-  options.cache.holds = CacheHolds::all;
+  options.cache.component = CachedComponent::all;
   options.cache.path_length = 2;  // the pane is no event, its reflection is one
   options.cache.samples_per_point = 8;
   const StoredSurfaces stored;

@@ -93,9 +93,10 @@ TEST(RadianceRecords, TheVertexOwnEmissionIsNotLearned) {
                Vec3(-9, 0, 9), Vec3(18, 0, 0), Vec3(0, 0, -18));
   builder.scene().cameras.push_back(view_from(Vec3(0, 2, 0), Vec3(0, 0, 0)));
   const ViewedWorld viewed(builder);
-  for (const CacheHolds holds : {CacheHolds::all, CacheHolds::no_delta, CacheHolds::indirect}) {
+  for (const CachedComponent holds :
+       {CachedComponent::all, CachedComponent::no_delta, CachedComponent::indirect}) {
     RenderOptions options;
-    options.cache.holds = holds;
+    options.cache.component = holds;
     const Made made(viewed, options, {.step = 1, .points = 500});
     ASSERT_GT(made.batch.records.size(), 400u);
     for (const float t : made.batch.targets) ASSERT_EQ(t, 0.0f);

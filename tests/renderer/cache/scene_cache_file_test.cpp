@@ -70,7 +70,7 @@ TEST(SceneCacheFile, FilesOfOtherOptionsOrScenesAreRefusedByName) {
   EXPECT_EQ(opening("nao", nao, kScene, 5), "");
 
   RenderOptions other = kNrc;
-  other.cache.holds = CacheHolds::indirect;
+  other.cache.component = CachedComponent::indirect;
   const std::string one = opening("nrc", {other}, kScene, 5);
   expect_message(one, {(folder / "nrc").string(), "cache-holds", "no-delta", "indirect"});
   EXPECT_FALSE(tests::has_name(one, "cache-roughness"));

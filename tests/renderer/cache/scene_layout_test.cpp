@@ -55,7 +55,7 @@ struct OneTriangle {
     scene::Instance& instance = builder.scene().instances[0];
     instance.transform = transform;
     instance.baked = baked;
-    instance.mirrors = transform.linear().determinant() < 0.0f;
+    instance.swaps_handedness = transform.linear().determinant() < 0.0f;
     Box& bounds = builder.scene().bounds;
     bounds.setEmpty();
     for (const Vec3& p : scene::world_triangle(builder.scene(), instance, 0)) bounds.extend(p);
@@ -134,7 +134,7 @@ TEST_P(SidesOfKinds, TheSideTowardsTheViewerFollowsTheWindingAndHasStorage) {
     ASSERT_TRUE(hit);
     const Surface surface = world.surfaces.at(hit, ray.direction, 0.0f, 0.5f);
     EXPECT_EQ(surface.front, from_front);
-    const std::uint32_t side = side_of(surface.front, instance.mirrors);
+    const std::uint32_t side = side_of(surface.front, instance.swaps_handedness);
     EXPECT_EQ(side, side_by_corners(scene, ray.direction));
 
     SurfacePoints points;

@@ -45,7 +45,7 @@ SceneBuilder rooms(float scale = 1.0f) {
   builder.quad(single, scale * Vec3(-0.4f, -0.5f, -0.5f), scale * Vec3(-1, 0, 0), scale * Vec3(0, 1, 0));
   scene::Instance& mirrored = builder.scene().instances.back();
   mirrored.baked = false;
-  mirrored.mirrors = true;
+  mirrored.swaps_handedness = true;
   mirrored.transform.scale(Vec3(-1, 1, 1));
   builder.box(twofold, scale * Vec3(5, 0, 0), scale * Vec3(6, 1, 1));
   builder.scene().cameras.push_back(view_from(scale * Vec3(0.3f, 0.5f, 2.5f), Vec3::Zero()));
@@ -103,7 +103,7 @@ TEST(Scouting, TargetsAreScaledToAMeanOfOne) {
     // Every target's mean is Le / (1 - a).
     const ScoutReport report = scouted(viewed, options);
     EXPECT_NEAR(report.setup.target_scale * 2.0f * brightness, 1.0f, 0.01f);
-    options.cache.holds = CacheHolds::indirect;
+    options.cache.component = CachedComponent::indirect;
     EXPECT_NEAR(scouted(viewed, options).setup.target_scale * brightness, 1.0f, 0.01f);
   }
 }

@@ -101,7 +101,7 @@ Result trace_picture(const ViewedWorld& viewed, std::uint32_t seed, float thresh
 Result trace_records(const ViewedWorld& viewed, std::uint32_t seed, float threshold) {
   const StoredSurfaces stored;
   RenderOptions options;
-  options.cache.holds = CacheHolds::all;
+  options.cache.component = CachedComponent::all;
   const CachedPaths paths(viewed.world, cached_paths_options(options), stored);
   CachedPaths::Scratch scratch;
   PathBatch batch{PointInputs()};

@@ -46,7 +46,7 @@ TEST(TrainingPointsStat, SurfacesAreChosenByAreaSidesEquallyAndDirectionsByCosin
   builder.mesh(matte, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}, {{0, 1, 2}, {1, 3, 2}});
   scene::Instance& mirrored = builder.scene().instances[1];
   mirrored.baked = false;
-  mirrored.mirrors = true;
+  mirrored.swaps_handedness = true;
   mirrored.transform.scale(Vec3(-1.5f, 2, 1));
   builder.quad(matte, Vec3(0, 0, 5), Vec3(9, 0, 0), Vec3(0, 9, 0));
   const scene::Scene& scene = builder.scene();

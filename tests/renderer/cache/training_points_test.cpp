@@ -269,7 +269,7 @@ TEST(TrainingPoints, SurfacePointsLieOnTheirRays) {
   builder.mesh(matte, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}});
   scene::Instance& mirrored = builder.scene().instances[1];
   mirrored.baked = false;
-  mirrored.mirrors = true;
+  mirrored.swaps_handedness = true;
   mirrored.transform.translate(Vec3(10, 0, 0));
   mirrored.transform.scale(Vec3(-1, 2, 1));
   const World world(builder.scene());

@@ -121,7 +121,8 @@ TEST(OptionsOfFilm, AreThoseOfALargerPictureWithNoMoreSamples) {
   EXPECT_EQ(*film.region, (std::array<int, 4>{2, 4, 6, 8}));
   EXPECT_EQ(film.spp, 12);
   EXPECT_EQ(film.filter, PixelFilter::box);
-  for (const auto& [of_picture, of_film] : {std::pair(1, 1), {4, 1}, {5, 1}, {8, 2}, {kOpenSpp, kOpenSpp}}) {
+  for (const auto& [of_picture, of_film] :
+       {std::pair(1, 1), {4, 1}, {5, 1}, {8, 2}, {kUnlimitedSpp, kUnlimitedSpp}}) {
     options.spp = of_picture;
     EXPECT_EQ(options_of_film(options).spp, of_film) << of_picture;
   }

@@ -147,7 +147,7 @@ TEST_P(MaxError, AnEstimateNeedsTwoSamples) {
 TEST_P(MaxError, ATimeLimitGivesAPicture) {
   RenderOptions timed = options();
   timed.cache.train_steps.reset();
-  timed.spp = kOpenSpp;
+  timed.spp = kUnlimitedSpp;
   timed.time_limit_seconds = 0.3;
   const MeasuredPicture result = render(timed);
   EXPECT_EQ(result.statistics.ended_by, EndedBy::time_limit);

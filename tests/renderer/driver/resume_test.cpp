@@ -260,7 +260,7 @@ TEST(CacheFiles, ACacheOfAnotherKindOrSceneIsRefused) {
     change(other);
     return refusal<CacheFileError>([&] { render(s, other); });
   };
-  expect_message(loading([](RenderOptions& o) { o.cache.holds = CacheHolds::all; }),
+  expect_message(loading([](RenderOptions& o) { o.cache.component = CachedComponent::all; }),
                  {"cache-holds", "no-delta", "all"});
   expect_message(loading([](RenderOptions& o) { o.integrator = Integrator::nao; }),
                  {"integrator", "nrc", "nao"});

@@ -73,9 +73,9 @@ TEST(DecidingOptions, EachIsNamedWithBothValues) {
       {[](O o, C) { o.cache.mlp.width = 64; }, {"hidden", "32", "64"}},
       {[](O o, C) { o.cache.direction_input = false; }, {"direction-input", "auto", "off"}},
       {[](O o, C) { o.cache.scout = false; }, {"scout", "on", "off"}},
-      {[](O o, C) { o.cache.holds = CacheHolds::all; }, {"cache-holds", "no-delta", "all"}},
+      {[](O o, C) { o.cache.component = CachedComponent::all; }, {"cache-holds", "no-delta", "all"}},
       {[](O o, C) { o.cache.query_at = QueryAt::spread; }, {"query-at", "gather", "spread"}},
-      {[](O o, C) { o.cache.view = CacheView::cache; }, {"view", "final", "cache"}},
+      {[](O o, C) { o.cache.view = CacheOutput::cache; }, {"view", "final", "cache"}},
       {[](O o, C) { o.cache.cache_in = "old"; }, {"cache-in", "none", "old"}},
   };
   for (const auto& [change, names] : cases) expect_names(changed(change), names);

@@ -183,7 +183,7 @@ TEST(LightSamplingTest, AMirroredInstanceShinesFromItsFront) {
   scene::Scene scene;
   testing::add_light(scene, {kOverhead}, Color(1, 1, 1));
   scene.instances[0].baked = false;
-  scene.instances[0].mirrors = true;
+  scene.instances[0].swaps_handedness = true;
   scene.instances[0].transform.linear() = Vec3(-1.5f, 1, 1).asDiagonal();
   const LitScene lit(std::move(scene));
   EXPECT_NEAR(expect_samples_follow_densities(lit, Vec3(0.3f, 0.5f, 0.2f), Vec3::UnitY(), 60), 1.0, 2e-3);

@@ -36,9 +36,9 @@ void expect_papers(const RenderOptions& options) {
   EXPECT_FALSE(cache.training.average.network || cache.training.average.features);
   EXPECT_EQ(cache.training.adam.decay_steps, 0.0f);
   EXPECT_FALSE(cache.training.start_at_mean);
-  EXPECT_EQ(cache.holds, CacheHolds::all);
+  EXPECT_EQ(cache.component, CachedComponent::all);
   EXPECT_EQ(cache.query_at, QueryAt::primary);
-  EXPECT_EQ(cache.view, CacheView::cache);
+  EXPECT_EQ(cache.view, CacheOutput::cache);
   EXPECT_EQ(cache.hash_grid.levels, 8u);
   EXPECT_EQ(cache.hash_grid.features, 4u);
   EXPECT_EQ(cache.hash_grid.base_resolution, 2u);
@@ -80,8 +80,8 @@ TEST(Presets, FinishedPicturesAreDenoisedAndLearnFromTheirSamples) {
     EXPECT_EQ(options.denoise.denoiser, DenoiserKind::automatic);
     EXPECT_EQ(options.cache.source, TrainingSource::picture);
     EXPECT_EQ(options.cache.query_at, QueryAt::spread);
-    EXPECT_EQ(options.cache.holds, CacheHolds::no_delta);
-    EXPECT_EQ(options.cache.view, CacheView::final);
+    EXPECT_EQ(options.cache.component, CachedComponent::no_delta);
+    EXPECT_EQ(options.cache.view, CacheOutput::final);
     EXPECT_FALSE(options.cache.train_steps) << "nothing about training";
     EXPECT_EQ(options.width, RenderOptions().width);
     EXPECT_EQ(options.height, RenderOptions().height);

@@ -94,7 +94,7 @@ TEST(Accel, RaysPassCulledBackFaces) {
   expect_culled_from_behind();
   // A mirrored node keeps its fronts in front.
   s.instances[0].transform.linear().col(0) = Vec3(-1, 0, 0);
-  s.instances[0].mirrors = true;
+  s.instances[0].swaps_handedness = true;
   expect_culled_from_behind();
 }
 
@@ -189,7 +189,7 @@ TEST(Accel, InstancesReportTheirIndexAndWorldGeometry) {
   s.instances.push_back(s.instances[0]);
   s.instances[1].transform = Affine(Eigen::Translation3f(5, 0, 0));
   s.instances[1].transform.linear() = Vec3(-1, 1, 1).asDiagonal();
-  s.instances[1].mirrors = true;
+  s.instances[1].swaps_handedness = true;
   const Tracer tracer(s);
   const Hit first = tracer.hit(Vec3(0, 0, 4), Vec3(0, 0, -1));
   const Hit second = tracer.hit(Vec3(5.2f, 0.1f, 4), Vec3(0, 0, -1));

@@ -7,8 +7,8 @@ namespace {
 
 using scene::kNoVolume;
 
-TEST(Interior, TheSmallestNumberIsTheStrongest) {
-  Interior in;
+TEST(MediumStack, TheSmallestNumberIsTheStrongest) {
+  MediumStack in;
   EXPECT_EQ(in.strongest(), kNoVolume);
   EXPECT_EQ(in.strongest_but(3), kNoVolume);
   for (const std::uint32_t v : {5u, 2u, 9u, 2u}) in.enter(v);
@@ -26,11 +26,11 @@ TEST(Interior, TheSmallestNumberIsTheStrongest) {
   EXPECT_EQ(in.strongest(), kNoVolume);
 }
 
-TEST(Interior, ForgetsTheWeakestOfTooMany) {
-  Interior in;
-  constexpr std::uint32_t kAll = Interior::kMost + 3;
+TEST(MediumStack, ForgetsTheWeakestOfTooMany) {
+  MediumStack in;
+  constexpr std::uint32_t kAll = MediumStack::kMost + 3;
   for (std::uint32_t v = kAll; v-- > 0;) in.enter(v);
-  for (std::uint32_t v = 0; v < Interior::kMost; ++v) {
+  for (std::uint32_t v = 0; v < MediumStack::kMost; ++v) {
     EXPECT_EQ(in.strongest(), v);
     in.leave(v);
   }
@@ -49,9 +49,9 @@ TEST(Vanish, GlassLetsAllLightPassAndOpaquePartsStay) {
   EXPECT_FLOAT_EQ(glass_share(label), 0.4f);
   const Vec3 up(0, 0, 1), wo = Vec3(0.6f, 0, 0.8f);
   SurfaceMaterial glass = label, rest = label;
-  EXPECT_TRUE(vanish(glass, 0.39f));
+  EXPECT_TRUE(make_index_matched(glass, 0.39f));
   EXPECT_TRUE((Bsdf(glass, up, up, up, wo, true).unrefracted_transmittance() == 1.0f).all());
-  EXPECT_FALSE(vanish(rest, 0.41f));
+  EXPECT_FALSE(make_index_matched(rest, 0.41f));
   EXPECT_EQ(rest.transmission, 0.0f);
   // 0.2 of the remaining 0.6 was metal.
   EXPECT_FLOAT_EQ(rest.metallic, 1.0f / 3.0f);

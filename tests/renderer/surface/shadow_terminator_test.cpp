@@ -81,7 +81,7 @@ TEST(ShadowTerminator, PlacedAndMirroredBallsLoseNoLight) {
   for (const Vec3& scale : {Vec3(0.9f, 0.9f, 0.9f), Vec3(-0.9f, 0.9f, 0.9f)}) {
     placed.instances[0].baked = false;
     placed.instances[0].transform = Affine(Eigen::AngleAxisf(0.4f, Vec3(1, 2, 3).normalized())).scale(scale);
-    placed.instances[0].mirrors = scale.x() < 0.0f;
+    placed.instances[0].swaps_handedness = scale.x() < 0.0f;
     EXPECT_LT(lost_light(placed), 1e-4);
   }
 }

@@ -32,7 +32,7 @@ scene::Scene leaning(const Affine& transform) {
   scene.textures.push_back({.image = 0});
   scene.instances[0].baked = false;
   scene.instances[0].transform = transform;
-  scene.instances[0].mirrors = transform.linear().determinant() < 0.0f;
+  scene.instances[0].swaps_handedness = transform.linear().determinant() < 0.0f;
   return scene;
 }
 

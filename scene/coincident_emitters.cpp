@@ -1,4 +1,4 @@
-#include "scene/doubled_lamps.h"
+#include "scene/coincident_emitters.h"
 
 #include <tbb/parallel_for.h>
 
@@ -119,7 +119,7 @@ class Separator {
         passes = pass(place.corners[c]);
       }
       if (!passes) continue;
-      bool turned = instance && !instance->baked && instance->mirrors;
+      bool turned = instance && !instance->baked && instance->swaps_handedness;
       auto& [a, b, c] = place.corners;
       const auto order = [&](auto& first, auto& second) {
         if (!(second < first)) return;
@@ -243,7 +243,7 @@ class Separator {
 
 }  // namespace
 
-std::vector<int> separate_doubled_lamps(Scene& scene) {
+std::vector<int> separate_coincident_emitters(Scene& scene) {
   return Separator(scene).separate();
 }
 

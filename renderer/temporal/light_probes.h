@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "renderer/reuse/visible_points.h"
+#include "renderer/temporal/visible_points.h"
 #include "renderer/transport/world.h"
 
 namespace gatelight::renderer {

@@ -1,4 +1,4 @@
-#include "renderer/reuse/carried_light.h"
+#include "renderer/temporal/carried_light.h"
 
 #include <algorithm>
 #include <cmath>
@@ -38,7 +38,8 @@ float light_of(const float* color, const float* albedo) {
                          color[2] / light_divisor(albedo[2])));
 }
 
-void compare_samples(const FrameSamples& frame, std::vector<Carried>& carried, float allowed_share) {
+void compare_samples(const FrameSamples& frame, std::vector<ReprojectedSample>& carried,
+                     float allowed_share) {
   const std::size_t pixels = carried.size();
   std::vector<float> there(pixels), now(pixels), before(pixels), variance(pixels);
   for_each_pixel(pixels, [&](std::size_t i) {
@@ -62,7 +63,7 @@ void compare_samples(const FrameSamples& frame, std::vector<Carried>& carried, f
   });
 }
 
-void match_brightness(const FrameSamples& frame, std::vector<Carried>& carried) {
+void match_brightness(const FrameSamples& frame, std::vector<ReprojectedSample>& carried) {
   const std::size_t pixels = carried.size();
   std::vector<float> there(pixels), ratio(pixels), variance(pixels);
   for_each_pixel(pixels, [&](std::size_t i) {
@@ -86,7 +87,7 @@ void match_brightness(const FrameSamples& frame, std::vector<Carried>& carried) 
   });
 }
 
-CarriedLight with_carried(const FrameSamples& frame, const std::vector<Carried>& carried,
+CarriedLight with_carried(const FrameSamples& frame, const std::vector<ReprojectedSample>& carried,
                           const std::vector<float>& edges) {
   const std::size_t pixels = carried.size();
   CarriedLight result;

@@ -1,11 +1,11 @@
-#include "renderer/reuse/visible_points.h"
+#include "renderer/temporal/visible_points.h"
 
 #include <array>
 #include <cmath>
 
 #include "base/parallel/loops.h"
 #include "renderer/film/tiles.h"
-#include "renderer/reuse/surface_change.h"
+#include "renderer/temporal/surface_change.h"
 #include "renderer/transport/guide_surface.h"
 
 namespace gatelight::renderer {
@@ -42,7 +42,7 @@ Vec3 mirrored(const Vec3& direction, const Vec3& normal) {
 }
 
 /// The walk of one pixel's ray.
-struct Walker {
+struct PixelPath {
   std::size_t pixel;
   Ray ray;
   RayCone cone;
@@ -57,7 +57,7 @@ struct Walker {
 
 class Tracer {
  public:
-  Tracer(const World& world, const EarlierView* earlier, VisiblePoints& points)
+  Tracer(const World& world, const PreviousView* earlier, VisiblePoints& points)
       : world_(world), earlier_(earlier), points_(points) {
     finds_changes_ = earlier && earlier->moment.has_materials();
     meets_all_ = world.scene.motion.any();
@@ -66,32 +66,32 @@ class Tracer {
 
   int most_passed() const { return meets_all_ ? kMostMet : kMostPassed; }
 
-  Walker start(std::size_t pixel, const CameraRay& from) const {
-    Walker walker{.pixel = pixel, .ray = from.ray, .cone = from.cone, .seed = from.ray.seed};
-    if (meets_all_) walker.ray.seed = kMeetsAll;
-    return walker;
+  PixelPath start(std::size_t pixel, const CameraRay& from) const {
+    PixelPath path{.pixel = pixel, .ray = from.ray, .cone = from.cone, .seed = from.ray.seed};
+    if (meets_all_) path.ray.seed = kMeetsAll;
+    return path;
   }
 
   /// Returns whether the ray goes on.
-  bool arrive(Walker& walker, const Hit& hit) {
+  bool arrive(PixelPath& path, const Hit& hit) {
     if (!hit) {
-      if (earlier_ && walker.had_image && !walker.arrived) note_background(walker);
+      if (earlier_ && path.had_image && !path.arrived) note_background(path);
       return false;
     }
-    const Vec3 direction = walker.ray.direction;
-    walker.travelled += hit.t;
-    const float width = walker.cone.width + walker.cone.spread * walker.travelled;
+    const Vec3 direction = path.ray.direction;
+    path.travelled += hit.t;
+    const float width = path.cone.width + path.cone.spread * path.travelled;
     const Surface surface = world_.surfaces.at(hit, direction, width, 0.5f);
     const SurfaceMaterial& m = surface.material;
     const float alpha = alpha_of(hit, world_.surfaces.material(hit.instance));
-    if (finds_changes_) note_change(walker, hit, surface, width, alpha);
-    if (alpha < 1.0f && (walker.arrived || !world_.coverage.is_there(hit, walker.seed)))
-      return go_behind(walker, hit, surface, alpha);
+    if (finds_changes_) note_change(path, hit, surface, width, alpha);
+    if (alpha < 1.0f && (path.arrived || !world_.coverage.is_there(hit, path.seed)))
+      return go_behind(path, hit, surface, alpha);
     if (is_mirror_or_clear(m))
-      return m.transmission > 0.5f ? pass(walker, hit, surface) : reflect(walker, hit, surface);
-    if (walker.arrived || !note_point(walker, hit, surface, width) || !finds_changes_) return false;
-    walker.arrived = true;
-    return alpha < 1.0f ? go_behind(walker, hit, surface, alpha) : look_at_reflection(walker, surface, width);
+      return m.transmission > 0.5f ? pass(path, hit, surface) : reflect(path, hit, surface);
+    if (path.arrived || !note_point(path, hit, surface, width) || !finds_changes_) return false;
+    path.arrived = true;
+    return alpha < 1.0f ? go_behind(path, hit, surface, alpha) : look_at_reflection(path, surface, width);
   }
 
  private:
@@ -103,107 +103,107 @@ class Tracer {
   }
 
   /// Adds the change of the surface since the earlier time.
-  void note_change(const Walker& walker, const Hit& hit, const Surface& surface, float width, float alpha) {
+  void note_change(const PixelPath& path, const Hit& hit, const Surface& surface, float width, float alpha) {
     const scene::Material& now = world_.surfaces.material(hit.instance);
     const scene::Material& before = earlier_->moment.material(world_.scene, hit.instance);
-    const Surface earlier = world_.surfaces.at(hit, walker.ray.direction, width, 0.5f, before);
-    points_.changes[walker.pixel] +=
-        walker.weight * (std::abs(alpha_of(hit, before) - alpha) +
-                         alpha * (surface_change(surface, earlier) + inside_change(now, before)));
+    const Surface earlier = world_.surfaces.at(hit, path.ray.direction, width, 0.5f, before);
+    points_.changes[path.pixel] +=
+        path.weight * (std::abs(alpha_of(hit, before) - alpha) +
+                       alpha * (surface_change(surface, earlier) + inside_change(now, before)));
   }
 
-  static void note_layer(Walker& walker, const Hit& hit) {
-    walker.layers = hash(walker.layers ^ hash(hit.instance + 1));
+  static void note_layer(PixelPath& path, const Hit& hit) {
+    path.layers = hash(path.layers ^ hash(hit.instance + 1));
   }
 
   /// Goes on behind a blended surface.
-  static bool go_behind(Walker& walker, const Hit& hit, const Surface& surface, float alpha) {
-    walker.ray.origin = surface.spawn(walker.ray.direction);
-    walker.weight *= 1.0f - alpha;
-    if (!walker.arrived && alpha > kLeastWeight) note_layer(walker, hit);
-    return !walker.arrived || walker.weight > kLeastWeight;
+  static bool go_behind(PixelPath& path, const Hit& hit, const Surface& surface, float alpha) {
+    path.ray.origin = surface.spawn(path.ray.direction);
+    path.weight *= 1.0f - alpha;
+    if (!path.arrived && alpha > kLeastWeight) note_layer(path, hit);
+    return !path.arrived || path.weight > kLeastWeight;
   }
 
   /// Goes on to what the surface of the point mirrors.
-  static bool look_at_reflection(Walker& walker, const Surface& surface, float width) {
+  static bool look_at_reflection(PixelPath& path, const Surface& surface, float width) {
     const Gloss gloss = gloss_of(surface.material);
-    const Vec3 out = mirrored(walker.ray.direction, surface.shading_normal).normalized();
+    const Vec3 out = mirrored(path.ray.direction, surface.shading_normal).normalized();
     if (!(out.dot(surface.geometric_normal) > 0.0f)) return false;
-    walker.ray.origin = surface.spawn(out);
-    walker.ray.direction = out;
-    walker.cone = {width, walker.cone.spread + gloss.lobe};
-    walker.travelled = 0.0f;
-    walker.weight *= gloss.share;
-    return walker.weight > kLeastWeight;
+    path.ray.origin = surface.spawn(out);
+    path.ray.direction = out;
+    path.cone = {width, path.cone.spread + gloss.lobe};
+    path.travelled = 0.0f;
+    path.weight *= gloss.share;
+    return path.weight > kLeastWeight;
   }
 
   /// Stores the point; false where its triangle has no area.
-  bool note_point(const Walker& walker, const Hit& hit, const Surface& surface, float width) {
+  bool note_point(const PixelPath& path, const Hit& hit, const Surface& surface, float width) {
     const std::optional<Plane> plane =
         plane_of(scene::world_triangle(world_.scene, instance(hit), hit.primitive), hit);
     if (!plane) return false;
-    const Vec3& direction = walker.ray.direction;
+    const Vec3& direction = path.ray.direction;
     const bool turned = plane->normal.dot(direction) > 0.0f;
     const Vec3 normal = turned ? Vec3(-plane->normal) : plane->normal;
     const Gloss gloss = gloss_of(surface.material);
-    points_.now[walker.pixel] = {.hit = hit,
-                                 .layers = walker.layers,
-                                 .position = plane->point,
-                                 .normal = normal,
-                                 .width = width,
-                                 .reflected = mirrored(direction, normal),
-                                 .glossy = gloss.share,
-                                 .lobe = gloss.lobe};
-    if (earlier_ && walker.had_image) note_earlier(walker, hit, turned);
+    points_.now[path.pixel] = {.hit = hit,
+                               .layers = path.layers,
+                               .position = plane->point,
+                               .normal = normal,
+                               .width = width,
+                               .reflected = mirrored(direction, normal),
+                               .glossy = gloss.share,
+                               .lobe = gloss.lobe};
+    if (earlier_ && path.had_image) note_earlier(path, hit, turned);
     return true;
   }
 
-  static bool pass(Walker& walker, const Hit& hit, const Surface& surface) {
+  static bool pass(PixelPath& path, const Hit& hit, const Surface& surface) {
     if (!surface.material.thin_walled) return false;
-    note_layer(walker, hit);
-    walker.ray.origin = surface.spawn(walker.ray.direction);
+    note_layer(path, hit);
+    path.ray.origin = surface.spawn(path.ray.direction);
     return true;
   }
 
-  bool reflect(Walker& walker, const Hit& hit, const Surface& surface) {
-    const Vec3 n = surface.shading_normal, d = walker.ray.direction;
+  bool reflect(PixelPath& path, const Hit& hit, const Surface& surface) {
+    const Vec3 n = surface.shading_normal, d = path.ray.direction;
     const Vec3 out = (d - 2.0f * n.dot(d) * n).normalized();
     if (!(out.dot(surface.geometric_normal) > 0.0f)) return false;
-    if (earlier_ && walker.had_image && !walker.arrived) {
+    if (earlier_ && path.had_image && !path.arrived) {
       const auto corners = earlier_->moment.triangle(world_.scene, hit.instance, hit.primitive);
       const auto plane = corners ? plane_of(*corners, hit) : std::nullopt;
-      walker.had_image = plane.has_value();
-      if (plane) walker.image = walker.image * reflection(plane->point, plane->normal);
+      path.had_image = plane.has_value();
+      if (plane) path.image = path.image * reflection(plane->point, plane->normal);
     }
-    note_layer(walker, hit);
-    walker.ray.origin = surface.spawn(out);
-    walker.ray.direction = out;
+    note_layer(path, hit);
+    path.ray.origin = surface.spawn(out);
+    path.ray.direction = out;
     return true;
   }
 
   /// The background is infinitely far away.
-  void note_background(const Walker& walker) {
+  void note_background(const PixelPath& path) {
     constexpr float kFar = 1e7f;
     const std::optional<Vec2> pixel =
-        earlier_->camera.pixel_of(walker.image * Vec3(walker.ray.origin + kFar * walker.ray.direction));
-    if (pixel) points_.earlier[walker.pixel] = EarlierPoint{.pixel = *pixel};
+        earlier_->camera.pixel_of(path.image * Vec3(path.ray.origin + kFar * path.ray.direction));
+    if (pixel) points_.earlier[path.pixel] = EarlierPoint{.pixel = *pixel};
   }
 
-  void note_earlier(const Walker& walker, const Hit& hit, bool turned) {
+  void note_earlier(const PixelPath& path, const Hit& hit, bool turned) {
     const auto corners = earlier_->moment.triangle(world_.scene, hit.instance, hit.primitive);
     const auto plane = corners ? plane_of(*corners, hit) : std::nullopt;
     if (!plane) return;
-    const std::optional<Vec2> pixel = earlier_->camera.pixel_of(walker.image * plane->point);
+    const std::optional<Vec2> pixel = earlier_->camera.pixel_of(path.image * plane->point);
     if (!pixel) return;
     const Vec3 normal = turned ? Vec3(-plane->normal) : plane->normal;
     // The way of the ray behind the mirrors.
-    const Vec3 seen = earlier_->camera.direction_to(walker.image * plane->point);
-    const Vec3 direction = walker.image.linear().transpose() * seen;
-    points_.earlier[walker.pixel] = EarlierPoint{*pixel, plane->point, normal, mirrored(direction, normal)};
+    const Vec3 seen = earlier_->camera.direction_to(path.image * plane->point);
+    const Vec3 direction = path.image.linear().transpose() * seen;
+    points_.earlier[path.pixel] = EarlierPoint{*pixel, plane->point, normal, mirrored(direction, normal)};
   }
 
   const World& world_;
-  const EarlierView* earlier_;
+  const PreviousView* earlier_;
   VisiblePoints& points_;
   bool finds_changes_ = false;
   bool meets_all_ = false;  ///< also blended surfaces that the point is behind
@@ -212,7 +212,7 @@ class Tracer {
 }  // namespace
 
 VisiblePoints trace_visible_points(const World& world, const Camera& camera, const PixelRect& rect,
-                                   const EarlierView* earlier) {
+                                   const PreviousView* earlier) {
   VisiblePoints points;
   const auto pixels = static_cast<std::size_t>(rect.width()) * static_cast<std::size_t>(rect.height());
   points.now.resize(pixels);
@@ -222,7 +222,7 @@ VisiblePoints trace_visible_points(const World& world, const Camera& camera, con
   for_each(static_cast<std::size_t>(tiles.count()), [&](std::size_t tile) {
     std::vector<Pixel> of_tile;
     tiles.pixels(static_cast<int>(tile), of_tile);
-    std::vector<Walker> walkers;
+    std::vector<PixelPath> walkers;
     for (const Pixel& p : of_tile) {
       const CameraRay from = camera.ray(static_cast<float>(p.x) + 0.5f, static_cast<float>(p.y) + 0.5f);
       walkers.push_back(tracer.start(rect.index(p.x, p.y), from));
@@ -231,7 +231,7 @@ VisiblePoints trace_visible_points(const World& world, const Camera& camera, con
     std::vector<Hit> hits;
     for (int passed = 0; !walkers.empty() && passed <= tracer.most_passed(); ++passed) {
       rays.clear();
-      for (const Walker& walker : walkers) rays.push_back(walker.ray);
+      for (const PixelPath& path : walkers) rays.push_back(path.ray);
       hits.assign(rays.size(), {});
       world.accel.intersect(rays, hits, passed == 0);
       std::size_t left = 0;

@@ -12,7 +12,7 @@
 
 namespace gatelight::scene::gltf {
 
-struct Judged {
+struct ValidatedJson {
   nlohmann::json root;                ///< the values that the schema knows, without animations
   std::vector<Animation> animations;  ///< all of the file
   std::vector<Channel> channels;      ///< those of the chosen animations, for what the scene shows
@@ -20,6 +20,7 @@ struct Judged {
 
 /// Parses the text and checks what the shown scene refers to, as far as that needs no other file: the schema
 /// (schema.h), version, extensions, and that every buffer view lies in its buffer. Throws InputError.
-Judged judge(std::string_view text, std::string_view file, const LoadOptions& options, Warnings& warnings);
+ValidatedJson validate(std::string_view text, std::string_view file, const LoadOptions& options,
+                       Warnings& warnings);
 
 }  // namespace gatelight::scene::gltf

@@ -7,7 +7,7 @@
 
 #include "renderer/film/camera.h"
 #include "renderer/image/pixel_rect.h"
-#include "renderer/reuse/moment.h"
+#include "renderer/temporal/scene_snapshot.h"
 #include "renderer/transport/world.h"
 
 namespace gatelight::renderer {
@@ -32,8 +32,8 @@ struct EarlierPoint {
 };
 
 /// An earlier time and its view.
-struct EarlierView {
-  Moment moment;
+struct PreviousView {
+  SceneSnapshot moment;
   Camera camera;
 };
 
@@ -49,6 +49,6 @@ struct VisiblePoints {
 /// Follows mirrors by the law of reflection, with the image behind a mirror where its plane was, and passes
 /// thin panes. Rays that refract are not followed. `earlier`: null for none. Works in the caller's arena.
 VisiblePoints trace_visible_points(const World& world, const Camera& camera, const PixelRect& rect,
-                                   const EarlierView* earlier);
+                                   const PreviousView* earlier);
 
 }  // namespace gatelight::renderer

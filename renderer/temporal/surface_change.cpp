@@ -1,4 +1,4 @@
-#include "renderer/reuse/surface_change.h"
+#include "renderer/temporal/surface_change.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "renderer/driver/frame_file.h"
+#include "renderer/temporal/frame_file.h"
 
 #include <fmt/format.h>
 

@@ -10,7 +10,7 @@ namespace gatelight::scene {
 /// is double-sided. Two that stay are seen from their fronts only (Material::culled). Call it after
 /// bake_transforms(): triangles of meshes that are shared or move are compared within their mesh. Returns the
 /// materials of which culled copies were added, in order.
-std::vector<int> separate_doubled_lamps(Scene& scene);
+std::vector<int> separate_coincident_emitters(Scene& scene);
 
 void add_culled_copy(Scene& scene, int material);
 

@@ -1,6 +1,6 @@
 // Light of an earlier frame in a film.
 
-#include "renderer/reuse/history.h"
+#include "renderer/temporal/history.h"
 
 #include <gtest/gtest.h>
 
@@ -43,7 +43,7 @@ struct Wall {
 
   /// A history of uniform light. `probe` is negative for none.
   History history(const Camera& from, float radiance, float samples, float probe) const {
-    History h{.view = {Moment(), from}, .rect = kRect};
+    History h{.view = {SceneSnapshot(), from}, .rect = kRect};
     h.points = trace_visible_points(*world, from, kRect, nullptr).now;
     h.color.assign(3 * kPixels, radiance);
     h.samples.assign(kPixels, samples);

@@ -1,6 +1,6 @@
 // Points of pixels, and their places a frame ago, against closed forms.
 
-#include "renderer/reuse/visible_points.h"
+#include "renderer/temporal/visible_points.h"
 
 #include <gtest/gtest.h>
 
@@ -61,7 +61,7 @@ TEST(VisiblePoints, FollowWhatMoves) {
   SceneBuilder earlier = moving_quad(before), present = moving_quad(now);
   const World world(present.scene());
   const Camera camera(present.scene().cameras[0], kViewWidth, kViewHeight);
-  const EarlierView view{Moment(earlier.scene()), camera};
+  const PreviousView view{SceneSnapshot(earlier.scene()), camera};
   const VisiblePoints points = trace_visible_points(world, camera, kViewRect, &view);
   int moved = 0;
   for (std::size_t i = 0; i < points.now.size(); ++i) {
@@ -83,7 +83,7 @@ TEST(VisiblePoints, HiddenThingsHaveNoEarlierPlace) {
   earlier.scene().instances[1].hidden = true;
   const World world(present.scene());
   const Camera camera(present.scene().cameras[0], kViewWidth, kViewHeight);
-  const EarlierView view{Moment(earlier.scene()), camera};
+  const PreviousView view{SceneSnapshot(earlier.scene()), camera};
   const VisiblePoints points = trace_visible_points(world, camera, kViewRect, &view);
   for (std::size_t i = 0; i < points.now.size(); ++i)
     EXPECT_EQ(points.earlier[i].has_value(), points.now[i].hit.instance == 0);
@@ -100,7 +100,7 @@ TEST(VisiblePoints, InAMirrorAreWhereTheImageWas) {
   const World world(builder.scene());
   const Camera camera(view_from(Vec3(0, 0, 4), Vec3::Zero()), kViewWidth, kViewHeight);
   const Camera before(view_from(Vec3(0.5f, 0, 4), Vec3(0.5f, 0, 0)), kViewWidth, kViewHeight);
-  const EarlierView view{Moment(builder.scene()), before};
+  const PreviousView view{SceneSnapshot(builder.scene()), before};
   const VisiblePoints points = trace_visible_points(world, camera, kViewRect, &view);
   const std::size_t middle = kViewRect.index(kViewWidth / 2, kViewHeight / 2);
   ASSERT_EQ(points.now[middle].hit.instance, 1u);
@@ -137,7 +137,7 @@ struct ChangingWall {
   std::vector<float> changes() {
     scene::Scene& scene = builder.scene();
     std::swap(scene.materials, before);
-    const EarlierView view{Moment(scene), camera};
+    const PreviousView view{SceneSnapshot(scene), camera};
     std::swap(scene.materials, before);
     const World world(scene);
     const VisiblePoints points = trace_visible_points(world, camera, kViewRect, &view);
@@ -159,7 +159,7 @@ TEST(VisiblePoints, OfTheSameMaterialHaveNotChanged) {
   SceneBuilder still = moving_quad(Affine::Identity());
   const World world(still.scene());
   const Camera camera(still.scene().cameras[0], kViewWidth, kViewHeight);
-  const EarlierView view{Moment(still.scene()), camera};
+  const PreviousView view{SceneSnapshot(still.scene()), camera};
   EXPECT_TRUE(trace_visible_points(world, camera, kViewRect, &view).changes.empty());
 }
 

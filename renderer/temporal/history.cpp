@@ -1,4 +1,4 @@
-#include "renderer/reuse/history.h"
+#include "renderer/temporal/history.h"
 
 #include <algorithm>
 #include <array>
@@ -46,10 +46,10 @@ float same_gloss(const VisiblePoint& now, const EarlierPoint& earlier) {
   return 1.0f - now.glossy * (1.0f - std::exp(-turned * turned));
 }
 
-class Carrier {
+class Reprojector {
  public:
-  Carrier(const Film& film, const VisiblePoints& points, const std::vector<Color>& probes,
-          const History* history)
+  Reprojector(const Film& film, const VisiblePoints& points, const std::vector<Color>& probes,
+              const History* history)
       : rect_(film.rect()),
         points_(points),
         probes_(probes),
@@ -98,13 +98,13 @@ class Carrier {
     });
   }
 
-  Carried carry(std::size_t i) const {
+  ReprojectedSample carry(std::size_t i) const {
     const VisiblePoint& now = points_.now[i];
     const EarlierPoint& earlier = *points_.earlier[i];
     const float x = earlier.pixel.x() - 0.5f, y = earlier.pixel.y() - 0.5f;
     const float left = std::floor(x), top = std::floor(y), u = x - left, v = y - top;
     const PixelRect& r = history_->rect;
-    Carried sum;
+    ReprojectedSample sum;
     float weights = 0.0f;
     for (int k = 0; k < 4; ++k) {
       const float px = left + static_cast<float>(k & 1), py = top + static_cast<float>(k >> 1);
@@ -210,14 +210,14 @@ class Carrier {
   FrameSamples frame_;
   std::vector<float> edges_;
   const Film& film_;
-  std::vector<Carried> carried_;
+  std::vector<ReprojectedSample> carried_;
 };
 
 }  // namespace
 
 Reuse reuse_samples(const Film& film, VisiblePoints points, std::vector<Color> probes,
                     const History* history) {
-  Reuse reuse{Carrier(film, points, probes, history).run()};
+  Reuse reuse{Reprojector(film, points, probes, history).run()};
   if (!history) reuse.color.clear();
   reuse.points = std::move(points);
   reuse.probes = std::move(probes);

@@ -4,14 +4,14 @@
 #include <vector>
 
 #include "renderer/film/film.h"
-#include "renderer/reuse/carried_light.h"
-#include "renderer/reuse/visible_points.h"
+#include "renderer/temporal/carried_light.h"
+#include "renderer/temporal/visible_points.h"
 
 namespace gatelight::renderer {
 
 /// A frame, with the samples that it took over from those before.
 struct History {
-  EarlierView view;
+  PreviousView view;
   PixelRect rect;
   std::vector<VisiblePoint> points;
   std::vector<float> color;    ///< 3 floats a pixel: the finished light

@@ -1,8 +1,8 @@
-#include "renderer/reuse/moment.h"
+#include "renderer/temporal/scene_snapshot.h"
 
 namespace gatelight::renderer {
 
-Moment::Moment(const scene::Scene& scene) {
+SceneSnapshot::SceneSnapshot(const scene::Scene& scene) {
   if (scene.motion.materials) materials_ = scene.materials;
   if (!scene.motion.instances) return;
   for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
@@ -15,8 +15,8 @@ Moment::Moment(const scene::Scene& scene) {
   }
 }
 
-std::optional<std::array<Vec3, 3>> Moment::triangle(const scene::Scene& scene, std::uint32_t instance,
-                                                    std::uint32_t primitive) const {
+std::optional<std::array<Vec3, 3>> SceneSnapshot::triangle(const scene::Scene& scene, std::uint32_t instance,
+                                                           std::uint32_t primitive) const {
   const scene::Instance& now = scene.instances[instance];
   const auto place = moving_.find(instance);
   if (place == moving_.end()) return scene::world_triangle(scene, now, primitive);

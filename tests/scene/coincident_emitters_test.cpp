@@ -1,6 +1,6 @@
 // Lamps that share their place with other surfaces.
 
-#include "scene/doubled_lamps.h"
+#include "scene/coincident_emitters.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -38,7 +38,7 @@ class Doubled {
   /// What a ray meets on the front and on the back of kFront: L or l for the front and the back of a lamp, W
   /// or w for a wall, none for nothing, and all where it may meet several.
   std::string seen() {
-    separate_doubled_lamps(scene_);
+    separate_coincident_emitters(scene_);
     std::string front, back;
     for (const Instance& instance : scene_.instances) {
       const Material& m = scene_.material_of(instance);
@@ -139,7 +139,7 @@ TEST(DoubledLamps, AreFoundInSharedMeshesAndMirroredInstances) {
   d.scene().instances[0].baked = false;
   d.scene().instances.push_back(d.scene().instances[0]);
   d.scene().instances[1].transform.translation() = Vec3(9, 0, 0);
-  separate_doubled_lamps(d.scene());
+  separate_coincident_emitters(d.scene());
   EXPECT_TRUE(d.scene().material_of(d.scene().instances[0]).culled);
   EXPECT_TRUE(d.scene().material_of(d.scene().instances[1]).culled);
 
@@ -148,10 +148,10 @@ TEST(DoubledLamps, AreFoundInSharedMeshesAndMirroredInstances) {
   mirrored.add(mirrored.lamp(), {kFront});
   Instance& instance = mirrored.scene().instances[0];
   instance.baked = false;
-  instance.mirrors = true;
+  instance.swaps_handedness = true;
   // Exchanges x and y: the corners stay in place, and the front stays in front.
   instance.transform.linear() << 0, 1, 0, 1, 0, 0, 0, 0, 1;
-  separate_doubled_lamps(mirrored.scene());
+  separate_coincident_emitters(mirrored.scene());
   EXPECT_EQ(mirrored.scene().instances.size(), 2u);
   for (const Instance& i : mirrored.scene().instances) EXPECT_TRUE(mirrored.scene().material_of(i).culled);
 }

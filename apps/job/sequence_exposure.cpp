@@ -1,4 +1,4 @@
-#include "apps/job/film_exposure.h"
+#include "apps/job/sequence_exposure.h"
 
 #include <algorithm>
 #include <cmath>
@@ -47,8 +47,8 @@ float common_exposure(std::vector<float> stops) {
   return static_cast<float>(std::round(10.0 * sum / static_cast<double>(stops.size())) / 10.0);
 }
 
-float film_exposure(renderer::Renderer& renderer, const std::vector<int>& frames,
-                    const std::function<void(int frame)>& show, const renderer::Callbacks& callbacks) {
+float sequence_exposure(renderer::Renderer& renderer, const std::vector<int>& frames,
+                        const std::function<void(int frame)>& show, const renderer::Callbacks& callbacks) {
   std::vector<float> stops;
   for (const int frame : frames) {
     show(frame);

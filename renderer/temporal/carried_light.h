@@ -9,7 +9,7 @@
 namespace gatelight::renderer {
 
 /// What a pixel may take over.
-struct Carried {
+struct ReprojectedSample {
   Color color{0.0f, 0.0f, 0.0f};
   float samples = 0.0f;           ///< 0: nothing
   Color probe{0.0f, 0.0f, 0.0f};  ///< of the place from which it comes
@@ -51,15 +51,15 @@ inline constexpr float kAllowedChange = 0.05f;
 
 /// Takes less over where the light around has changed by more than its noise and `allowed_share`. All work
 /// in the caller's arena.
-void compare_samples(const FrameSamples& frame, std::vector<Carried>& carried,
+void compare_samples(const FrameSamples& frame, std::vector<ReprojectedSample>& carried,
                      float allowed_share = kAllowedChange);
 
 /// Corrects the carried light by the mean ratio of the samples to it, as far as their noise lets it be known:
 /// what a rough surface reflects changes slowly with the view.
-void match_brightness(const FrameSamples& frame, std::vector<Carried>& carried);
+void match_brightness(const FrameSamples& frame, std::vector<ReprojectedSample>& carried);
 
 /// `carried`: of all pixels. `edges`: above 0 where nothing is carried on from.
-CarriedLight with_carried(const FrameSamples& frame, const std::vector<Carried>& carried,
+CarriedLight with_carried(const FrameSamples& frame, const std::vector<ReprojectedSample>& carried,
                           const std::vector<float>& edges);
 
 /// Mixes the carried light into a denoised frame: 3 floats for each pixel of `rect`. Means over some pixels

@@ -12,10 +12,10 @@
 namespace gatelight::renderer {
 
 /// What moves or changes, as it is now: it outlives the scene's next times.
-class Moment {
+class SceneSnapshot {
  public:
-  Moment() = default;
-  explicit Moment(const scene::Scene& scene);
+  SceneSnapshot() = default;
+  explicit SceneSnapshot(const scene::Scene& scene);
 
   /// The corners of a triangle in world space, in the order of the scene's mesh. Nothing where the instance
   /// was hidden, or its mesh had other vertices.

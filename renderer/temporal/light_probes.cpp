@@ -1,4 +1,4 @@
-#include "renderer/reuse/light_probes.h"
+#include "renderer/temporal/light_probes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,8 +6,8 @@
 #include <span>
 
 #include "base/parallel/loops.h"
-#include "renderer/reuse/surface_change.h"
 #include "renderer/sampling/warp.h"
+#include "renderer/temporal/surface_change.h"
 #include "renderer/transport/scattering.h"
 
 namespace gatelight::renderer {

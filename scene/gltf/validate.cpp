@@ -1,4 +1,4 @@
-#include "scene/gltf/judge.h"
+#include "scene/gltf/validate.h"
 
 #include <fmt/format.h>
 
@@ -166,19 +166,20 @@ void check_views(json& root, std::string_view file, Warnings& warnings) {
 
 }  // namespace
 
-Judged judge(std::string_view text, std::string_view file, const LoadOptions& options, Warnings& warnings) {
-  Judged judged{parse_json(text, file), {}, {}};
-  json& root = judged.root;
+ValidatedJson validate(std::string_view text, std::string_view file, const LoadOptions& options,
+                       Warnings& warnings) {
+  ValidatedJson validated{parse_json(text, file), {}, {}};
+  json& root = validated.root;
   check_version(root, file, warnings);
   add_scene(root, warnings);
-  judged.animations = list_animations(root);
+  validated.animations = list_animations(root);
   check_schema(root, options.scene, choose_animations(root, options, file, warnings), file, warnings);
   check_extensions(root, options.ignore_required, file, warnings);
   complete_cameras(root, file);
   complete_lights(root, warnings);
   check_views(root, file, warnings);
-  judged.channels = take_channels(root);
-  return judged;
+  validated.channels = take_channels(root);
+  return validated;
 }
 
 }  // namespace gatelight::scene::gltf
