@@ -30,21 +30,6 @@ find_package(MPI COMPONENTS CXX QUIET)
 # xxHash has no CMake files and is used as a header only.
 find_path(GATELIGHT_XXHASH xxhash.h REQUIRED)
 mark_as_advanced(GATELIGHT_XXHASH)
-# Chart.js is one script that is copied into the reports of `gatelight sweep`.
-find_file(GATELIGHT_CHART_JS NAMES chart.min.js Chart.min.js
-  PATHS /usr/share/javascript/chart.js /usr/share/nodejs/chart.js/dist NO_DEFAULT_PATH
-  DOC "Chart.js, version 3 or 4, as one script (UMD)")
-if(NOT GATELIGHT_CHART_JS)
-  set(GATELIGHT_CHART_JS "")
-  message(STATUS "Without charts in the reports of 'gatelight sweep': install libjs-chart.js, or name its chart.min.js or "
-    "chart.umd.js with -DGATELIGHT_CHART_JS=FILE")
-else()
-  file(READ "${GATELIGHT_CHART_JS}" chart_start LIMIT 200)
-  if(NOT chart_start MATCHES "Chart\\.js v[34]\\.")
-    message(FATAL_ERROR "'${GATELIGHT_CHART_JS}' does not begin as Chart.js 3 or 4 does")
-  endif()
-endif()
-mark_as_advanced(GATELIGHT_CHART_JS)
 if(GATELIGHT_TESTS)
   find_package(GTest CONFIG REQUIRED)
 endif()

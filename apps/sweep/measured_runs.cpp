@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <string>
 
 #include "apps/sweep/cell_record.h"
 
@@ -17,7 +16,7 @@ bool equal(const ordered_json& a, const ordered_json& b, std::initializer_list<c
 }
 
 bool same_reference(const MeasuredRun& a, const MeasuredRun& b) {
-  return equal(a.cell(), b.cell(), {"scene", "reference_id"});
+  return same_cells(a, b, {"scene", "reference_id"});
 }
 
 /// A row has a name of its own and is no baseline, even where a named run takes plain paths.
@@ -46,6 +45,14 @@ std::vector<std::pair<double, double>> points_of(const std::vector<MeasuredRun>&
 
 }  // namespace
 
+bool same_cells(const MeasuredRun& a, const MeasuredRun& b, std::initializer_list<const char*> keys) {
+  return equal(a.cell(), b.cell(), keys);
+}
+
+std::string MeasuredRun::word(const char* key) const {
+  return cell().at(key).get<std::string>();
+}
+
 std::optional<Mean> MeasuredRun::mean(const char* object, const char* key) const {
   std::vector<double> values;
   for (const ordered_json* cell : cells) {
@@ -53,7 +60,8 @@ std::optional<Mean> MeasuredRun::mean(const char* object, const char* key) const
     if (value != cell->at(object).end() && value->is_number()) values.push_back(value->get<double>());
   }
   if (values.empty()) return std::nullopt;
-  Mean mean;
+  const auto [least, most] = std::minmax_element(values.begin(), values.end());
+  Mean mean{.value = 0.0, .least = *least, .most = *most, .deviation = {}};
   for (const double value : values) mean.value += value / static_cast<double>(values.size());
   if (values.size() < 3) return mean;
   double squares = 0.0;

@@ -1,10 +1,11 @@
 #pragma once
-// The rows of results.md: cells that differ only in their seeds, and how much less time they take than the
-// plain integrator.
+// Cells that differ only in their seeds, and how much less time they take than the plain integrator.
 
 #include <cstdint>
+#include <initializer_list>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -24,6 +25,8 @@ inline constexpr const char* kEqualErrors[] = {"rel_mse_clean", "flip"};
 
 struct Mean {
   double value = 0.0;
+  double least = 0.0;
+  double most = 0.0;
   std::optional<double> deviation;  ///< the standard deviation, of three values or more
 };
 
@@ -32,9 +35,13 @@ struct MeasuredRun {
   Baseline baseline = Baseline::none;
 
   const nlohmann::ordered_json& cell() const { return *cells.front(); }
+  std::string word(const char* key) const;  ///< such as "series"
   /// Over the cells that have the number, such as ("errors", "flip"). Nothing where none has.
   std::optional<Mean> mean(const char* object, const char* key) const;
 };
+
+/// Whether their cells have the same values of these keys.
+bool same_cells(const MeasuredRun& a, const MeasuredRun& b, std::initializer_list<const char*> keys);
 
 /// In the order of the cells, which must outlive the runs.
 std::vector<MeasuredRun> measured_runs(const nlohmann::ordered_json& cells);

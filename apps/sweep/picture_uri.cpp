@@ -1,42 +1,31 @@
 #include "apps/sweep/picture_uri.h"
 
-#include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <string_view>
 #include <vector>
 
 #include "base/image/jpeg_write.h"
-#include "renderer/image/image_library.h"
+#include "renderer/image/image_write.h"
 #include "renderer/image/srgb.h"
 
 namespace gatelight::apps {
 namespace {
 
-struct Pixels {
-  int width = 0;
-  int height = 0;
-  std::vector<std::uint8_t> bytes;  ///< RGB, sRGB
-};
-
-float decode(std::uint8_t byte, PictureKind kind) {
-  return kind == PictureKind::map ? static_cast<float>(byte) / 255.0f : renderer::kSrgbToLinear[byte];
-}
-
-std::uint8_t encode(float value, PictureKind kind) {
-  if (kind == PictureKind::light) return renderer::display_byte(value, 1.0f, renderer::Tonemap::none);
-  return static_cast<std::uint8_t>(std::lround(255.0f * std::clamp(value, 0.0f, 1.0f)));
-}
-
-Pixels shrink(const Pixels& pixels, PictureKind kind, int width) {
-  const int height =
-      std::max(1, static_cast<int>(std::lround(static_cast<double>(pixels.height) * width / pixels.width)));
-  std::vector<float> values(pixels.bytes.size());
-  for (std::size_t i = 0; i < values.size(); ++i) values[i] = decode(pixels.bytes[i], kind);
-  values = renderer::image_library().resize(values, pixels.width, pixels.height, width, height);
-  Pixels smaller{.width = width, .height = height};
-  smaller.bytes.reserve(values.size());
-  for (const float x : values) smaller.bytes.push_back(encode(x, kind));
+/// Means of squares of `side` pixels; what is left at the right and at the bottom is cut off.
+std::vector<std::uint8_t> shrink(const std::vector<std::uint8_t>& bytes, int width, int side, int columns,
+                                 int rows) {
+  std::vector<std::uint8_t> smaller;
+  for (int i = 0; i < columns * rows; ++i) {
+    for (int c = 0; c < 3; ++c) {
+      float sum = 0.0f;
+      for (int k = 0; k < side * side; ++k) {
+        const std::ptrdiff_t x = i % columns * side + k % side, y = i / columns * side + k / side;
+        sum += renderer::kSrgbToLinear[bytes[static_cast<std::size_t>(3 * (y * width + x) + c)]];
+      }
+      const float mean = sum / static_cast<float>(side * side);
+      smaller.push_back(renderer::display_byte(mean, 1.0f, renderer::Tonemap::none));
+    }
+  }
   return smaller;
 }
 
@@ -56,17 +45,13 @@ std::string encode_base64(const std::vector<std::uint8_t>& bytes) {
 
 }  // namespace
 
-EmbeddedPicture embed_picture(const renderer::Picture& picture, const renderer::ImageWriteOptions& display,
-                              PictureKind kind, int max_width) {
-  Pixels pixels{picture.width, picture.height, renderer::display_bytes(picture, display.display)};
-  if (pixels.width > max_width) pixels = shrink(pixels, kind, max_width);
-  const bool map = kind == PictureKind::map;
-  // Noise is coloured, so subsampled colour would change what is compared.
-  const std::vector<std::uint8_t> jpeg =
-      encode_jpeg(pixels.bytes, pixels.width, pixels.height, map ? 75 : 88, map);
-  return {.size = {picture.width, picture.height},
-          .width = pixels.width,
-          .uri = "data:image/jpeg;base64," + encode_base64(jpeg)};
+std::string picture_uri(const renderer::Picture& picture, const renderer::DisplayOptions& display) {
+  constexpr int kMostWidth = 1280, kQuality = 88;
+  const int side = (picture.width + kMostWidth - 1) / kMostWidth;
+  const int columns = picture.width / side, rows = std::max(1, picture.height / side);
+  std::vector<std::uint8_t> bytes = renderer::display_bytes(picture, display);
+  if (side > 1) bytes = shrink(bytes, picture.width, side, columns, rows);
+  return "data:image/jpeg;base64," + encode_base64(encode_jpeg(bytes, columns, rows, kQuality));
 }
 
 }  // namespace gatelight::apps

@@ -51,17 +51,6 @@ std::string csv_field(const ordered_json& value) {
   return quoted + '"';
 }
 
-/// Finds the value of a column: "seconds_train" is {"seconds": {"train": 1}}.
-const ordered_json* find_value(const ordered_json& cell, const std::string& column) {
-  if (const auto at = cell.find(column); at != cell.end()) return &*at;
-  for (const auto& [key, value] : cell.items()) {
-    if (!value.is_object() || column.rfind(key + "_", 0) != 0) continue;
-    const auto at = value.find(column.substr(key.size() + 1));
-    if (at != value.end()) return &*at;
-  }
-  return nullptr;
-}
-
 /// The distinct values of `key` in the cells.
 std::set<std::string> words_of_cells(const ordered_json& cells, const char* key) {
   std::set<std::string> words;
@@ -101,6 +90,16 @@ ordered_json make_results(const std::vector<std::string>& command, const std::ve
   results["machine"] = machine_json(results["cells"]);
   results["versions"]["of_cells"] = words_of_cells(results["cells"], "version");
   return results;
+}
+
+const ordered_json* find_value(const ordered_json& cell, const std::string& column) {
+  if (const auto at = cell.find(column); at != cell.end()) return &*at;
+  for (const auto& [key, value] : cell.items()) {
+    if (!value.is_object() || column.rfind(key + "_", 0) != 0) continue;
+    const auto at = value.find(column.substr(key.size() + 1));
+    if (at != value.end()) return &*at;
+  }
+  return nullptr;
 }
 
 std::string results_csv(const ordered_json& results) {

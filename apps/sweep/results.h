@@ -16,6 +16,10 @@ struct SceneResults {  // NOLINT(bugprone-exception-escape): moving JSON throws 
 nlohmann::ordered_json make_results(const std::vector<std::string>& command,
                                     const std::vector<SceneResults>& scenes);
 
+/// The value of a column of results.csv: "seconds_train" is {"seconds": {"train": 1}}. Null where a cell has
+/// none.
+const nlohmann::ordered_json* find_value(const nlohmann::ordered_json& cell, const std::string& column);
+
 /// CSV with a line for each cell. The columns are the flattened keys of results.json, the same for all
 /// sweeps, and one for each axis. Null is empty. Texts are quoted as in RFC 4180.
 std::string results_csv(const nlohmann::ordered_json& results);

@@ -15,28 +15,13 @@ namespace {
 
 using nlohmann::ordered_json;
 
-constexpr const char* kLegend =
-    R"(Seconds: all phases (scouting, training, rendering, denoising), without loading, building and writing. Rel. MSE: of one
-picture, without the noise of the reference. bias²: the part that would remain with infinitely many samples, from pairs of
-pictures. Means over the seeds, from three seeds on with standard deviations. Times faster: the seconds that the plain
-integrator needs for the same error, as traced and denoised, over those of the run; * if that lies beyond the measured
-sample counts. results.csv has all figures.)";
-
-std::string word(const MeasuredRun& run, const char* key) {
-  return run.cell().at(key).get<std::string>();
-}
-
 std::string scene_of(const MeasuredRun& run) {
   const auto size = run.cell().at("options").at("size").get<std::vector<int>>();
-  return fmt::format("{}, {}", word(run, "scene"), fmt::join(size, "x"));
+  return fmt::format("{}, {}", run.word("scene"), fmt::join(size, "x"));
 }
 
 void add(std::vector<std::string>& names, const std::string& name) {
   if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
-}
-
-std::string row(const std::vector<std::string>& cells) {
-  return fmt::format("| {} |\n", fmt::join(cells, " | "));
 }
 
 /// Without the zero before the point.
@@ -79,31 +64,15 @@ std::string summary(const MeasuredRun& run) {
                      times.empty() ? "" : fmt::format(" ({})", times));
 }
 
-/// A row for each scene, a column for each named run and each number of samples of denoised paths.
-std::string trade(const std::vector<MeasuredRun>& runs) {
-  if (std::none_of(runs.begin(), runs.end(), is_named)) return "";
-  std::vector<std::string> scenes, names;
-  for (const Baseline baseline : {Baseline::denoised, Baseline::none}) {
-    for (const MeasuredRun& run : runs) {
-      if (run.baseline != baseline || (baseline == Baseline::none && !is_named(run))) continue;
-      add(names, word(run, "run"));
-      add(scenes, scene_of(run));
-    }
-  }
-  std::string text = fmt::format("| | {} |\n", fmt::join(names, " | "));
-  for (std::size_t i = 0; i <= names.size(); ++i) text += "|---";
-  text += "|\n";
-  for (const std::string& scene : scenes) {
-    std::vector<std::string> cells = {scene};
-    for (const std::string& name : names) {
-      const auto at = std::find_if(runs.begin(), runs.end(), [&](const MeasuredRun& run) {
-        return scene_of(run) == scene && word(run, "run") == name;
-      });
-      cells.push_back(at == runs.end() ? "" : summary(*at));
-    }
-    text += row(cells);
-  }
-  return text + "\n";
+std::string markdown(const TextTable& table) {
+  std::string text;
+  for (const std::string& name : table.head) text += name.empty() ? "| " : "| " + name + " ";
+  text += "|\n|";
+  for (std::size_t i = 0; i < table.head.size(); ++i) text += i < table.first_number ? "---|" : "---:|";
+  text += "\n";
+  for (const std::vector<std::string>& cells : table.rows)
+    text += fmt::format("| {} |\n", fmt::join(cells, " | "));
+  return text;
 }
 
 std::string noise(const ordered_json& results) {
@@ -123,23 +92,62 @@ std::string noise(const ordered_json& results) {
 
 }  // namespace
 
-std::string results_table(const ordered_json& results) {
+const char* const kTableLegend =
+    R"(Seconds: all phases (scouting, training, rendering, denoising), without loading, building and writing. Rel. MSE: of one
+picture, without the noise of the reference. bias²: the part that would remain with infinitely many samples, from pairs of
+pictures. Means over the seeds, from three seeds on with standard deviations. Times faster: the seconds that the plain
+integrator needs for the same error, as traced and denoised, over those of the run; * if that lies beyond the measured
+sample counts. results.csv has all figures.)";
+
+TextTable trade_table(const ordered_json& results) {
   const std::vector<MeasuredRun> runs = measured_runs(results.at("cells"));
-  std::string text =
-      trade(runs) + kLegend +
-      "\n\n| | | seconds | rel. MSE | bias² | FLIP | times faster than plain: rel. MSE; FLIP | than "
-      "plain denoised |\n|---|---|---:|---:|---:|---:|---:|---:|\n";
+  TextTable table;
+  if (std::none_of(runs.begin(), runs.end(), is_named)) return table;
+  std::vector<std::string> scenes, names;
+  for (const Baseline baseline : {Baseline::denoised, Baseline::none}) {
+    for (const MeasuredRun& run : runs) {
+      if (run.baseline != baseline || (baseline == Baseline::none && !is_named(run))) continue;
+      add(names, run.word("run"));
+      add(scenes, scene_of(run));
+    }
+  }
+  table.head = {""};
+  table.head.insert(table.head.end(), names.begin(), names.end());
+  table.first_number = table.head.size();
+  for (const std::string& scene : scenes) {
+    std::vector<std::string>& cells = table.rows.emplace_back(1, scene);
+    for (const std::string& name : names) {
+      const auto at = std::find_if(runs.begin(), runs.end(), [&](const MeasuredRun& run) {
+        return scene_of(run) == scene && run.word("run") == name;
+      });
+      cells.push_back(at == runs.end() ? "" : summary(*at));
+    }
+  }
+  return table;
+}
+
+TextTable runs_table(const ordered_json& results) {
+  TextTable table = {{"", "", "seconds", "rel. MSE", "bias²", "FLIP",
+                      "times faster than plain: rel. MSE; FLIP", "than plain denoised"},
+                     2,
+                     {}};
   std::string before;
-  for (const MeasuredRun& run : runs) {
+  for (const MeasuredRun& run : measured_runs(results.at("cells"))) {
     const std::string scene = scene_of(run);
-    text += row(
-        {scene == before ? "" : scene, word(run, "run"), with_deviation(run.mean("seconds", "total"), 1),
+    table.rows.push_back(
+        {scene == before ? "" : scene, run.word("run"), with_deviation(run.mean("seconds", "total"), 1),
          with_deviation(run.mean("errors", "rel_mse_clean"), 4),
          with_deviation(run.mean("errors", "bias_rel_mse"), 4), with_deviation(run.mean("errors", "flip"), 3),
          times_faster(run, Baseline::traced), times_faster(run, Baseline::denoised)});
     before = scene;
   }
-  return text + noise(results);
+  return table;
+}
+
+std::string results_table(const ordered_json& results) {
+  const TextTable trade = trade_table(results);
+  return (trade.rows.empty() ? "" : markdown(trade) + "\n") + kTableLegend + "\n\n" +
+         markdown(runs_table(results)) + noise(results);
 }
 
 }  // namespace gatelight::apps

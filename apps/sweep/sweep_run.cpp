@@ -26,7 +26,6 @@
 #include "base/clock.h"
 #include "base/file/atomic_file.h"
 #include "renderer/image/image_format.h"
-#include "renderer/image/image_library.h"
 #include "renderer/image/image_write.h"
 
 namespace gatelight::apps {
@@ -300,7 +299,6 @@ int run_sweep(const SweepSettings& given, const std::vector<std::string>& comman
     write_text("-", plan_text(plan));
     return kDone;
   }
-  renderer::image_library();  // scales pictures for the report: throws now if it is missing
   install_signal_handlers();
   SweepRun run(settings, plan, command);
   const int code = run.run();

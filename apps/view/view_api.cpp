@@ -180,7 +180,7 @@ WebResponse ViewApi::picture(const WebRequest& request, const std::string& viewe
   const bool exact = shown->complete || !present.empty();
   const std::vector<std::uint8_t> file =
       exact ? encode_png(bytes, picture->width, picture->height, 3)
-            : encode_jpeg(bytes, picture->width, picture->height, kJpegQuality, false);
+            : encode_jpeg(bytes, picture->width, picture->height, kJpegQuality);
   ordered_json description = describe(*shown);
   description["histogram"] = histogram(bytes);
   description["layer"] = present;

@@ -39,7 +39,7 @@ struct JpegEncoder {
   JpegEncoder(const JpegEncoder&) = delete;
   JpegEncoder& operator=(const JpegEncoder&) = delete;
 
-  bool encode(const std::uint8_t* rgb, int width, int height, int quality, bool halve_color) {
+  bool encode(const std::uint8_t* rgb, int width, int height, int quality) {
     if (setjmp(failed) != 0) return false;
     jpeg_create_compress(&info);
     jpeg_mem_dest(&info, &bytes, &size);
@@ -49,7 +49,7 @@ struct JpegEncoder {
     info.in_color_space = JCS_RGB;
     jpeg_set_defaults(&info);
     jpeg_set_quality(&info, quality, TRUE);
-    info.comp_info[0].h_samp_factor = info.comp_info[0].v_samp_factor = halve_color ? 2 : 1;
+    info.comp_info[0].h_samp_factor = info.comp_info[0].v_samp_factor = 1;
     jpeg_start_compress(&info, TRUE);
     while (info.next_scanline < info.image_height) {
       // libjpeg only reads the row.
@@ -64,9 +64,9 @@ struct JpegEncoder {
 }  // namespace
 
 std::vector<std::uint8_t> encode_jpeg(const std::vector<std::uint8_t>& rgb, int width, int height,
-                                      int quality, bool halve_color) {
+                                      int quality) {
   JpegEncoder encoder;
-  if (!encoder.encode(rgb.data(), width, height, quality, halve_color))
+  if (!encoder.encode(rgb.data(), width, height, quality))
     throw std::runtime_error(std::string("cannot make a JPEG: ") + encoder.message);
   return {encoder.bytes, encoder.bytes + encoder.size};
 }

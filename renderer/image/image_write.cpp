@@ -88,7 +88,7 @@ std::vector<std::uint8_t> encode(const Picture& picture, ImageFormat format,
   const auto [width, height] = std::pair{picture.width, picture.height};
   switch (format) {
     case ImageFormat::jpeg:
-      return encode_jpeg(display_bytes(picture, options.display), width, height, kQuality, false);
+      return encode_jpeg(display_bytes(picture, options.display), width, height, kQuality);
     case ImageFormat::hdr:
       return image_library().encode(format, radiance_of(picture), width, height, 32);
     case ImageFormat::png:

@@ -1,12 +1,10 @@
-// Files that a sweep reads back from its folder: results, the record of a cell, the numbers of a reference,
-// bytes of caches.
+// Files that a sweep reads back from its folder: results, the record of a cell, the numbers of a reference.
 
 #include <filesystem>
 #include <string>
 
 #include "apps/sweep/advise.h"
 #include "apps/sweep/cell_record.h"
-#include "apps/sweep/gate_memory.h"
 #include "apps/sweep/references.h"
 #include "apps/sweep/report.h"
 #include "apps/sweep/request.h"
@@ -37,7 +35,9 @@ void read_record(Bytes bytes) {
   const apps::CellPlace place{scene, scene.series[0], 1, 4, "4e0", "5f1"};
   const auto record = apps::read_done_record(folder, place, false);
   if (!record) return;
-  const nlohmann::ordered_json results = apps::make_results({"gatelight"}, {{{{"name", "a"}}, {*record}}});
+  const nlohmann::ordered_json scene_json = {
+      {"name", "a"}, {"file", "a.glb"}, {"references", nlohmann::ordered_json::array()}};
+  const nlohmann::ordered_json results = apps::make_results({"gatelight"}, {{scene_json, {*record}}});
   apps::results_csv(results);
   apps::give_advice(results, {.max_error = 0.5, .max_seconds = {}});
   apps::make_report(results, folder);
@@ -61,8 +61,6 @@ void read_results(Bytes bytes) {
 void sweep_records(Bytes bytes) {
   read_results(bytes);
   read_record(bytes);
-  static const InputFile memory("gate-memory.json");
-  apps::GateMemoryStore(memory.write(bytes).string()).knows("x");
   static const InputFile numbers("reference.json");
   numbers.write(bytes);
   apps::Reference reference;

@@ -1,28 +1,32 @@
+// The page of a sweep: its texts, numbers, charts and pictures.
+
 #include "apps/sweep/report.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <limits>
-#include <nlohmann/json.hpp>
+#include <algorithm>
 #include <regex>
 
-#include "apps/sweep/page.h"
 #include "apps/sweep/picture_uri.h"
+#include "apps/sweep/report_chart.h"
+#include "apps/sweep/results.h"
 #include "base/image/jpeg_read.h"
 #include "renderer/image/image_write.h"
+#include "tests/apps/sweep/sweep_records.h"
 #include "tests/support/temporary_folder.h"
 
 namespace gatelight::apps {
 namespace {
 
 using nlohmann::ordered_json;
+using ::testing::AllOf;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::StartsWith;
 using tests::TemporaryFolder;
-
-constexpr const char* kJpeg = "data:image/jpeg;base64,";
 
 std::string decode_base64(const std::string& text) {
   constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
@@ -45,279 +49,221 @@ struct Decoded {
 };
 
 Decoded decode(const std::string& uri) {
-  EXPECT_THAT(uri, StartsWith(kJpeg));
-  const std::string jpeg = decode_base64(uri.substr(std::string(kJpeg).size()));
+  const std::string begin = "data:image/jpeg;base64,";
+  EXPECT_THAT(uri, StartsWith(begin));
+  const std::string jpeg = decode_base64(uri.substr(begin.size()));
   JpegReader reader({jpeg.begin(), jpeg.end()});
   return {reader.width(), reader.height(), reader.read_8()};
 }
 
-renderer::Picture flat_picture(int width, int height, std::array<float, 3> color) {
+renderer::Picture grey_picture(int width, int height, float value) {
+  const std::size_t count = static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 3;
   renderer::Picture picture{.width = width, .height = height};
-  renderer::Layer beauty{.channels = {"R", "G", "B"}};
-  for (int i = 0; i < width * height; ++i)
-    beauty.values.insert(beauty.values.end(), color.begin(), color.end());
-  picture.layers.push_back(std::move(beauty));
+  picture.layers.push_back({.channels = {"R", "G", "B"}, .values = std::vector<float>(count, value)});
   return picture;
 }
 
-/// Content of the page's script with this id.
-std::string text_of(const std::string& page, const std::string& id) {
-  const std::string open = "\" id=\"" + id + "\">";
-  const std::size_t from = page.find(open);
-  if (from == std::string::npos) return "null";
-  const std::size_t start = from + open.size();
-  return page.substr(start, page.find("</script>", start) - start);
+int byte_of(float radiance, float scale = 1.0f, renderer::Tonemap tonemap = renderer::Tonemap::none) {
+  return renderer::display_byte(radiance, scale, tonemap);
 }
 
-ordered_json data_of(const std::string& page, const std::string& id) {
-  return ordered_json::parse(text_of(page, id));
+/// All matches of the first group.
+std::vector<std::string> found(const std::string& text, const std::string& pattern) {
+  const std::regex regex(pattern);
+  std::vector<std::string> all;
+  for (std::sregex_iterator at(text.begin(), text.end(), regex); at != std::sregex_iterator(); ++at)
+    all.push_back((*at)[1]);
+  return all;
 }
 
-std::string uri_of(const std::string& page, const std::string& file) {
-  for (const ordered_json& entry : data_of(page, "pictures")) {
-    if (entry["file"] == file) return text_of(page, entry["element"]);
+/// A finished cell of the series with a cache.
+ordered_json done(const SweepPlan& plan, std::uint32_t seed, int steps, const std::string& id) {
+  return done_record({plan.scenes[0], plan.scenes[0].series[0], seed, steps, id, "ref"}, statistics(),
+                     errors(), true, 2.5f);
+}
+
+/// Two runs of two seeds: one cell is done, another one has failed, and of the second run one is missing.
+ordered_json results() {
+  const SweepPlan plan = small_plan();
+  SceneResults scene;
+  scene.scene = {{"name", plan.scenes[0].name},
+                 {"file", "a.glb"},
+                 {"references",
+                  {{{"id", "ref"},
+                    {"kind", "path"},
+                    {"spp", 64},
+                    {"file", "references/ref.exr"},
+                    {"rel_mse_noise", 0.005},
+                    {"seconds", 12.0}}}}};
+  scene.cells = {done(plan, 1, 4, "1"), done(plan, 1, 8, "2"),
+                 failed_record({plan.scenes[0], plan.scenes[0].series[0], 2, 4, "3", "ref"}, "it <broke>")};
+  scene.cells[0]["errors"]["flip"] = 0.123456789;
+  return make_results({"gatelight", "sweep"}, {scene});
+}
+
+std::string page_of(const ordered_json& results) {
+  const TemporaryFolder folder;
+  return make_report(results, folder.path().string());
+}
+
+/// The table of all pictures, its head first.
+std::vector<std::vector<std::string>> rows_of(const std::string& page) {
+  std::vector<std::vector<std::string>> rows;
+  std::string table = page.substr(page.find("<h2>All pictures</h2>"));
+  table = table.substr(0, table.find("</table>"));
+  for (std::size_t from = table.find("<tr>"); from != std::string::npos; from = table.find("<tr>", from + 1))
+    rows.push_back(found(table.substr(from, table.find("</tr>", from) - from), ">([^<]*)</t[dh]>"));
+  return rows;
+}
+
+TEST(ReportChart, PlacesPointsTicksAndWhiskersOnLogarithmicAxes) {
+  const ChartLine line{
+      {0, false},
+      {{1.0, 0.1, 0.1, 0.1, "a"}, {10.0, 0.01, 0.001, 0.1, "b < c"}, {100.0, 0.001, 0.001, 0.001, ""}}};
+  const std::string svg = chart_svg("seconds", "FLIP", {line});
+  // Two decades, and a tenth of one at each end, on 504 by 290 pixels from (64, 318).
+  EXPECT_THAT(svg, HasSubstr(R"(<path d="M86.9 41.2L316.0 173.0L545.1 304.8"/>)"));
+  EXPECT_THAT(svg, HasSubstr("M316.0 304.8V41.2"));
+  EXPECT_THAT(found(svg, R"re(<text x="([0-9.]+)" y="338")re"), ElementsAre("86.9", "316.0", "545.1"));
+  EXPECT_THAT(found(svg, R"re(text-anchor="middle">([0-9.]+)<)re"), ElementsAre("1", "10", "100"));
+  EXPECT_THAT(found(svg, R"re(text-anchor="end">([0-9.]+)<)re"), ElementsAre("0.001", "0.01", "0.1"));
+  EXPECT_THAT(found(svg, R"re(translate\(([0-9.]+ [0-9.]+)\)" d)re"),
+              ElementsAre("86.9 41.2", "316.0 173.0", "545.1 304.8"));
+  EXPECT_THAT(svg, HasSubstr("<title>b &#60; c</title>"));
+}
+
+TEST(ReportChart, HasRoundTicksForEverySpan) {
+  for (const double span : {1.0, 1.5, 3.0, 30.0, 1e3, 1e9}) {
+    const std::string svg =
+        chart_svg("x", "y", {{{}, {{0.037, 1.0, 1.0, 1.0, ""}, {0.037 * span, 2.0, 2.0, 2.0, ""}}}});
+    const std::vector<std::string> places = found(svg, R"re(<text x="([0-9.]+)" y="338")re");
+    EXPECT_GE(places.size(), 3u) << span;
+    for (std::size_t i = 1; i < places.size(); ++i)
+      EXPECT_GT(std::stod(places[i]), std::stod(places[i - 1]) + 25.0) << span;
+    EXPECT_THAT(svg, Not(HasSubstr("nan"))) << span;
   }
-  return "";
 }
 
-std::size_t count(const std::string& text, const std::string& part) {
-  std::size_t found = 0;
-  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++found;
-  return found;
+TEST(Report, NumbersAreThoseOfTheCsv) {
+  const ordered_json all = results();
+  const auto csv = read_csv(results_csv(all)), page = rows_of(page_of(all));
+  ASSERT_EQ(page.size(), 5u);
+  ASSERT_GT(page[0].size(), 15u);
+  // Cells are by run in the page and by seed in the file: the first, the third and the second.
+  for (const auto& [row, cell] : {std::pair{1u, 1u}, {2u, 3u}, {3u, 2u}}) {
+    ASSERT_EQ(page[row].size(), page[0].size());
+    for (std::size_t c = 3; c < page[0].size(); ++c) {
+      const auto column = std::find(csv[0].begin(), csv[0].end(), page[0][c]);
+      ASSERT_NE(column, csv[0].end()) << page[0][c];
+      const std::string text = csv[cell][static_cast<std::size_t>(column - csv[0].begin())];
+      EXPECT_EQ(page[row][c], text.empty() ? "–" : fmt::format("{:.4g}", std::stod(text))) << *column;
+    }
+  }
 }
 
-ordered_json one_cell(const ordered_json& changes = ordered_json::object()) {
-  ordered_json cell = {{"id", "1"},
-                       {"scene", "room"},
-                       {"series", "nrc"},
-                       {"status", "done"},
-                       {"reference", "path"},
-                       {"picture", "pictures/1.png"},
-                       {"error_map", nullptr},
-                       {"options", {{"exposure", 1.0}, {"tonemap", "filmic"}}}};
-  cell.update(changes);
-  return {
-      {"schema", 1},
-      {"scenes", {{{"name", "room"}, {"references", {{{"kind", "path"}, {"file", "references/r.exr"}}}}}}},
-      {"cells", {cell}}};
+TEST(Report, FailedAndMissingCellsAreShownAsSuch) {
+  ordered_json all = results();
+  const std::string page = page_of(all);
+  const auto rows = rows_of(page);
+  const std::string run = "nrc gate stack adaptive,1, ";
+  EXPECT_THAT(std::vector(rows[1].begin() + 1, rows[1].begin() + 4), ElementsAre(run + "4 steps", "", "1"));
+  EXPECT_THAT(std::vector(rows[2].begin() + 1, rows[2].begin() + 4),
+              ElementsAre(run + "4 steps", "failed: it &#60;broke&#62;", "2"));
+  EXPECT_THAT(std::vector(rows[4].begin() + 1, rows[4].begin() + 4),
+              ElementsAre(run + "8 steps", "not measured", "2"));
+  EXPECT_THAT(rows[4].back(), "–");
+  // Among the pictures, which are those of the first seed.
+  EXPECT_THAT(page, Not(HasSubstr("<p class=\"none\">failed")));
+  for (ordered_json& cell : all["cells"]) {
+    if (cell["status"] == "failed") cell["seed"] = 0;
+  }
+  EXPECT_THAT(page_of(all), AllOf(HasSubstr("<p class=\"none\">failed: it &#60;broke&#62;</p>"),
+                                  HasSubstr("<p class=\"none\">not measured</p>")));
+  // A scene that could not be read has neither references nor pictures.
+  for (ordered_json& cell : all["cells"])
+    cell =
+        failed_record({small_plan().scenes[0], small_plan().scenes[0].series[0], 1, 4, "3", ""}, "no scene");
+  EXPECT_THAT(page_of(all), HasSubstr("<p class=\"none\">failed: no scene</p>"));
+  all["cells"] = ordered_json::array();
+  EXPECT_THAT(page_of(all), HasSubstr("Recipe"));
 }
 
-TEST(ReportPage, JsonCannotEndItsScriptAndReadsTheSame) {
-  const ordered_json hostile = {{"</script><script>", "<!-- \xe2\x80\xa8 \xc3\xa4 & \\ \" \n"},
-                                {"none", nullptr}};
-  const std::string text = json_for_script(hostile);
-  EXPECT_EQ(text.find('<'), std::string::npos);
-  for (const char c : text) EXPECT_TRUE(c >= ' ' && c <= '~') << static_cast<int>(c);
-  EXPECT_EQ(ordered_json::parse(text), hostile);
+TEST(Report, ChartsHaveMeansOverSeedsAndLeaveOutWhatHasNoLogarithm) {
+  ordered_json all = results();
+  ordered_json second = all["cells"][0];
+  second["seed"] = 2;
+  second["errors"]["flip"] = 0.3;
+  all["cells"][2] = second;
+  EXPECT_THAT(page_of(all), HasSubstr("4 steps: 3.75 s, mean FLIP 0.2117 (0.1235 to 0.3 over 2 seeds)"));
+  EXPECT_THAT(page_of(all), HasSubstr("relative MSE 0.015"));
+  for (ordered_json& cell : all["cells"]) cell["errors"]["rel_mse_clean"] = -1e-4;
+  EXPECT_THAT(page_of(all),
+              AllOf(Not(HasSubstr("relative MSE")), HasSubstr("mean FLIP"), Not(HasSubstr("nan"))));
 }
 
-TEST(ReportPage, ValuesThatJsonCannotStoreAreNullOrReplaced) {
-  EXPECT_EQ(json_for_script({{"x", std::numeric_limits<double>::infinity()}}), R"({"x":null})");
-  EXPECT_EQ(json_for_script({{"x", std::numeric_limits<double>::quiet_NaN()}}), R"({"x":null})");
-  EXPECT_EQ(json_for_script("\xff"), R"("\ufffd")");
-}
-
-TEST(ReportPage, SlotsAreFilledOnceAndInPlace) {
-  EXPECT_EQ(fill_slots("a {{x}} b {{y}}{{x}}", {{"x", "{{y}}"}, {"y", "$1"}}), "a {{y}} b $1{{y}}");
-  EXPECT_EQ(fill_slots("{ } none", {}), "{ } none");
-}
-
-TEST(ReportPage, HoldsItsScriptsAndTheLicenceOfChartJs) {
-  const std::string page = make_page(one_cell(), {});
-  EXPECT_THAT(page, StartsWith("<!doctype html>"));
-  // A build without Chart.js has neither.
-  EXPECT_EQ(count(page, "Chart.js v") > 0, bool{GATELIGHT_CHARTS});
-  EXPECT_EQ(count(page, "Released under the MIT License") > 0, bool{GATELIGHT_CHARTS});
-  EXPECT_THAT(page, HasSubstr("function frontOf("));
-  EXPECT_THAT(page, HasSubstr("--series-1:"));
-  EXPECT_THAT(page, Not(HasSubstr("{{script}}")));
-  // Only its own end tag ends each element.
-  EXPECT_EQ(count(page, "<script"), 4u);
-  EXPECT_EQ(count(page, "</script>"), 4u);
-  EXPECT_EQ(count(page, "</style>"), 1u);
-}
-
-TEST(ReportPage, LoadsNothingFromOutside) {
-  const std::string page = make_page(one_cell(), {});
+TEST(Report, NamesAreTextAndNothingIsLoaded) {
+  const std::string hostile = "</script><script>\"'&<b>\xe2\x80\xa8\xff";
+  ordered_json all = results();
+  all["command"] = {hostile};
+  all["machine"]["cpu"] = all["scenes"][0]["name"] = all["scenes"][0]["file"] = hostile;
+  for (ordered_json& cell : all["cells"]) {
+    for (const char* key : {"scene", "series", "run", "error", "command"}) cell[key] = hostile;
+    cell["axes"]["row"] = hostile;
+  }
+  const std::string page = page_of(all);
+  EXPECT_THAT(page, AllOf(HasSubstr("&#60;/script&#62;&#60;script&#62;&#34;"), Not(HasSubstr("<b>"))));
+  EXPECT_EQ(found(page, "(<script|</script>)").size(), 2u);
   EXPECT_THAT(page, HasSubstr("default-src 'none'"));
-  const std::regex loads(R"re((src|href)\s*=\s*["'](?!data:)|@import|url\(\s*["']?https?:)re");
-  std::smatch found;
-  EXPECT_FALSE(std::regex_search(page, found, loads)) << found.str();
+  EXPECT_THAT(found(page, R"re(((?:src|href)\s*=\s*["'](?!data:|")|@import|url\())re"), ElementsAre());
 }
 
-TEST(ReportPicture, KeepsSizeAndColourOfThePng) {
-  const Decoded small = decode(embed_picture(flat_picture(64, 40, {0.5f, 0.1f, 0.02f}), {}).uri);
-  EXPECT_EQ(small.width, 64);
-  EXPECT_EQ(small.height, 40);
-  const renderer::ImageWriteOptions display{
-      .display = {.exposure = 1.0f, .tonemap = renderer::Tonemap::filmic}};
-  const Decoded shown = decode(embed_picture(flat_picture(16, 16, {0.5f, 0.1f, 0.02f}), display).uri);
-  for (std::size_t c = 0; c < 3; ++c) {
-    const float value = std::array{0.5f, 0.1f, 0.02f}[c];
-    EXPECT_NEAR(small.bytes[c], renderer::display_byte(value, 1.0f, renderer::Tonemap::none), 2);
-    EXPECT_NEAR(shown.bytes[c], renderer::display_byte(value, 2.0f, renderer::Tonemap::filmic), 2);
-  }
+TEST(ReportPicture, HasSizeAndColourOfThePng) {
+  const Decoded plain = decode(picture_uri(grey_picture(64, 40, 0.1f), {}));
+  EXPECT_EQ(plain.width, 64);
+  EXPECT_EQ(plain.height, 40);
+  EXPECT_NEAR(plain.bytes[0], byte_of(0.1f), 2);
+  const Decoded shown = decode(
+      picture_uri(grey_picture(16, 16, 0.1f), {.exposure = 1.0f, .tonemap = renderer::Tonemap::filmic}));
+  EXPECT_NEAR(shown.bytes[0], byte_of(0.1f, 2.0f, renderer::Tonemap::filmic), 2);
 }
 
-/// Black and white, one pixel each.
-renderer::Picture striped_picture(int width, int height) {
-  renderer::Picture stripes = flat_picture(width, height, {0.0f, 0.0f, 0.0f});
+TEST(ReportPicture, IsMadeSmallerByMeansOfLight) {
+  renderer::Picture stripes = grey_picture(2560, 51, 0.0f);
   std::vector<float>& values = stripes.layers.front().values;
   for (std::size_t i = 0; i < values.size(); i += 6)
     std::fill_n(values.begin() + static_cast<std::ptrdiff_t>(i), 3, 1.0f);
-  return stripes;
-}
-
-TEST(ReportPicture, WidePicturesShrinkByMeansOfLight) {
-  const EmbeddedPicture picture = embed_picture(striped_picture(2 * kMaxPictureWidth, 30), {});
-  EXPECT_EQ(picture.size, (std::array{2 * kMaxPictureWidth, 30}));
-  EXPECT_EQ(picture.width, kMaxPictureWidth);
-  const Decoded decoded = decode(picture.uri);
-  EXPECT_EQ(decoded.width, kMaxPictureWidth);
-  EXPECT_EQ(decoded.height, 15);
+  const Decoded decoded = decode(picture_uri(stripes, {}));
+  EXPECT_EQ(decoded.width, 1280);
+  EXPECT_EQ(decoded.height, 25);
   // Half the light is byte 188; half the byte would be 128.
-  EXPECT_NEAR(decoded.bytes[3 * (7 * kMaxPictureWidth + 640)], 188, 3);
+  EXPECT_NEAR(decoded.bytes[3 * (7 * 1280 + 640)], 188, 3);
+  EXPECT_EQ(decode(picture_uri(grey_picture(3841, 1, 0.5f), {})).width, 960);
 }
 
-TEST(ReportPicture, MapsShrinkByMeansOfBytesAndAreSmaller) {
-  const renderer::Picture stripes = striped_picture(1280, 32);
-  const Decoded map = decode(embed_picture(stripes, {}, PictureKind::map, 640).uri);
-  EXPECT_EQ(map.width, 640);
-  EXPECT_NEAR(map.bytes[3 * (8 * 640 + 320)], 128, 3);
-  renderer::Picture colors = flat_picture(256, 256, {0.0f, 0.0f, 0.0f});
-  std::vector<float>& values = colors.layers.front().values;
-  for (std::size_t i = 0; i < values.size(); ++i) values[i] = static_cast<float>(i * 7919 % 101) / 100.0f;
-  EXPECT_LT(embed_picture(colors, {}, PictureKind::map).uri.size(),
-            embed_picture(colors, {}, PictureKind::light).uri.size() * 6 / 10);
-}
-
-TEST(Report, EmbedsPicturesMapsAndReferencesByTheirNames) {
-  const TemporaryFolder folder;
-  std::filesystem::create_directories(folder / "pictures");
-  std::filesystem::create_directories(folder / "references");
-  renderer::write_image(flat_picture(8, 8, {0.5f, 0.5f, 0.5f}), folder / "pictures/1.png");
-  renderer::write_image(flat_picture(8, 8, {0.0f, 1.0f, 0.0f}), folder / "pictures/1-flip.png");
-  renderer::write_image(flat_picture(8, 8, {0.25f, 0.25f, 0.25f}), folder / "references/r.exr");
-  const ordered_json results = one_cell({{"error_map", "pictures/1-flip.png"}});
-  const std::string page = make_report(results, folder.path().string());
-  EXPECT_EQ(data_of(page, "results"), results);
-  ASSERT_EQ(data_of(page, "pictures").size(), 3u);
-  EXPECT_NEAR(decode(uri_of(page, "pictures/1.png")).bytes[0], 188, 2);
-  EXPECT_NEAR(decode(uri_of(page, "pictures/1-flip.png")).bytes[1], 255, 3);
-  // Shown as the cells' PNGs were made: a stop brighter, with the curve.
-  EXPECT_NEAR(decode(uri_of(page, "references/r.exr")).bytes[0],
-              renderer::display_byte(0.5f, 1.0f, renderer::Tonemap::filmic), 2);
-}
-
-TEST(Report, ShowsAReferenceWithTheExposureOfEachPictureBesideIt) {
-  const TemporaryFolder folder;
-  std::filesystem::create_directories(folder / "references");
-  renderer::write_image(flat_picture(8, 8, {0.1f, 0.1f, 0.1f}), folder / "references/r.exr");
-  ordered_json results = one_cell();
-  results["cells"][0]["options"]["tonemap"] = "none";
-  results["cells"].push_back(results["cells"][0]);
-  results["cells"][1]["picture"] = "pictures/2.png";
-  results["cells"][1]["options"]["exposure"] = 2.0;
-  // A cell without a picture needs no reference.
-  results["cells"].push_back(results["cells"][0]);
-  results["cells"][2]["picture"] = nullptr;
-  results["cells"][2]["options"]["exposure"] = 3.0;
-  const std::string page = make_report(results, folder.path().string());
-  const ordered_json index = data_of(page, "pictures");
-  ASSERT_EQ(index.size(), 2u);
-  for (std::size_t i = 0; i < 2; ++i) {
-    EXPECT_EQ(index[i]["file"], "references/r.exr");
-    EXPECT_EQ(index[i]["exposure"], results["cells"][i]["options"]["exposure"]);
-    EXPECT_EQ(index[i]["tonemap"], "none");
-    EXPECT_NEAR(decode(text_of(page, index[i]["element"])).bytes[0],
-                renderer::display_byte(i == 0 ? 0.2f : 0.4f, 1.0f, renderer::Tonemap::none), 2);
-  }
-}
-
-TEST(Report, EmbedsOnlyReferencesThatACellNames) {
-  const TemporaryFolder folder;
-  std::filesystem::create_directories(folder / "references");
-  ordered_json results = one_cell({{"reference_id", "b"}});
-  results["scenes"][0]["references"] = ordered_json::array();
-  for (const std::string id : {"a", "b"}) {
-    renderer::write_image(flat_picture(8, 8, {0.1f, 0.1f, 0.1f}), folder / ("references/" + id + ".exr"));
-    results["scenes"][0]["references"].push_back(
-        {{"id", id}, {"kind", "path"}, {"file", "references/" + id + ".exr"}});
-  }
-  const auto files = [&] {
-    std::vector<std::string> names;
-    for (const ordered_json& entry : data_of(make_report(results, folder.path().string()), "pictures"))
-      names.push_back(entry["file"]);
-    return names;
+TEST(Report, EmbedsPicturesAndTheReferenceForTheExposureOfEach) {
+  const TemporaryFolder folder, other;
+  for (const char* name : {"pictures", "references"}) std::filesystem::create_directories(folder / name);
+  renderer::write_image(grey_picture(8, 8, 0.5f), folder / "pictures/1.png");
+  renderer::write_image(grey_picture(8, 8, 1.0f), folder / "pictures/1-flip.png");
+  folder.write("pictures/2.png", "no picture");
+  renderer::write_image(grey_picture(8, 8, 0.1f), folder / "references/ref.exr");
+  renderer::write_image(grey_picture(8, 8, 0.9f), other / "ref.exr");
+  ordered_json all = results();
+  all["cells"][1]["options"].update({{"exposure", 1.0}, {"tonemap", "filmic"}});
+  const auto bytes_of = [&](const ordered_json& named) {
+    std::vector<int> bytes;
+    const std::string page = make_report(named, folder.path().string());
+    for (const std::string& uri : found(page, R"re(<img alt="[^"]+" src="([^"]*)")re"))
+      bytes.push_back(decode(uri).bytes[0]);
+    EXPECT_EQ(found(page, "(pictures?</p>|: no picture)").size(), 2u) << "the second picture and its map";
+    return bytes;
   };
-  EXPECT_THAT(files(), ::testing::ElementsAre("references/b.exr"));
-  results["cells"][0].erase("reference_id");
-  EXPECT_THAT(files(), ::testing::ElementsAre("references/a.exr", "references/b.exr"));
-}
-
-TEST(Report, AnAbsolutePathIsTakenAsItIs) {
-  const TemporaryFolder folder;
-  const TemporaryFolder other;
-  renderer::write_image(flat_picture(8, 8, {1.0f, 1.0f, 1.0f}), other / "r.exr");
-  renderer::write_image(flat_picture(8, 8, {0.0f, 0.0f, 0.0f}), folder / "r.exr");
-  ordered_json results = one_cell({{"options", nullptr}});
-  for (const auto& [file, byte] : {std::pair{(other / "r.exr").string(), 255}, {std::string("r.exr"), 0}}) {
-    results["scenes"][0]["references"][0]["file"] = file;
-    EXPECT_EQ(decode(uri_of(make_report(results, folder.path().string()), file)).bytes[0], byte);
-  }
-}
-
-TEST(Report, ManyPicturesAreSmaller) {
-  const TemporaryFolder folder;
-  const renderer::Picture wide = flat_picture(1300, 4, {0.5f, 0.5f, 0.5f});
-  renderer::write_image(wide, folder / "1.png");
-  ordered_json results = one_cell();
-  const auto widths = [&](int count) {
-    results["cells"].clear();
-    for (int i = 0; i < count / 2; ++i) {
-      ordered_json cell = {{"picture", std::to_string(i) + "/../1.png"},
-                           {"error_map", std::to_string(i) + "/.././1.png"}};
-      std::filesystem::create_directories(folder / std::to_string(i));
-      results["cells"].push_back(cell);
-    }
-    const ordered_json index = data_of(make_report(results, folder.path().string()), "pictures");
-    EXPECT_EQ(index.size(), static_cast<std::size_t>(count));
-    EXPECT_EQ(index[0]["size"], ordered_json({1300, 4}));
-    return std::pair(index[0]["width"].get<int>(), index[1]["width"].get<int>());
-  };
-  EXPECT_EQ(widths(60), std::pair(1280, 960));
-  EXPECT_EQ(widths(240), std::pair(640, 480));
-  EXPECT_EQ(widths(428), std::pair(480, 360));
-}
-
-TEST(Report, StatesItsSize) {
-  const TemporaryFolder folder;
-  std::filesystem::create_directories(folder / "pictures");
-  renderer::write_image(flat_picture(64, 64, {0.5f, 0.5f, 0.5f}), folder / "pictures/1.png");
-  const std::string page = make_report(one_cell(), folder.path().string());
-  std::smatch found;
-  ASSERT_TRUE(std::regex_search(page, found, std::regex("<body data-bytes=\"([0-9]+)\">")));
-  EXPECT_NEAR(std::stod(found[1]), static_cast<double>(page.size()), 100.0);
-  EXPECT_EQ(data_of(page, "pictures")[0]["bytes"], uri_of(page, "pictures/1.png").size());
-}
-
-TEST(Report, LeavesOutPicturesThatCannotBeRead) {
-  const TemporaryFolder folder;
-  folder.write("pictures/1.png", "no picture");
-  const std::string page = make_report(one_cell({{"error_map", "pictures/1.txt"}}), folder.path().string());
-  EXPECT_TRUE(data_of(page, "pictures").empty());
-}
-
-TEST(Report, EveryNumberMayBeMissing) {
-  const TemporaryFolder folder;
-  const ordered_json failed =
-      one_cell({{"status", "failed"}, {"picture", nullptr}, {"options", nullptr}, {"errors", nullptr}});
-  EXPECT_EQ(data_of(make_report(failed, folder.path().string()), "results"), failed);
-  for (const char* text : {R"({"scenes":[],"cells":[]})", R"({"schema":1})",
-                           R"({"scenes":[{"name":"x"}],"cells":[{}]})", R"({"scenes":null,"cells":null})"}) {
-    EXPECT_TRUE(data_of(make_report(ordered_json::parse(text), folder.path().string()), "pictures").empty())
-        << text;
-  }
+  EXPECT_THAT(bytes_of(all),
+              ::testing::Pointwise(
+                  ::testing::DoubleNear(2.0),
+                  {byte_of(0.1f), byte_of(0.1f, 2.0f, renderer::Tonemap::filmic), byte_of(0.5f), 255}));
+  all["scenes"][0]["references"][0]["file"] = (other / "ref.exr").string();
+  EXPECT_NEAR(bytes_of(all)[0], byte_of(0.9f), 2) << "an absolute path is taken as it is";
 }
 
 }  // namespace

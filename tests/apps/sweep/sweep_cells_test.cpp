@@ -26,24 +26,11 @@ double noise_of(const json& results, const std::string& id) {
 TEST_F(SweepCells, TheReportContainsEveryPicture) {
   ASSERT_EQ(run_gatelight(words("out", {"--seeds", "2"})).exit_code, 0);
   const std::string report = read_file(folder / "out/report.html");
-  const std::string open = R"(<script type="application/json" id="pictures">)";
-  ASSERT_THAT(report, HasSubstr(open));
-  const std::size_t begin = report.find(open) + open.size();
-  std::set<std::string> shown;
-  for (const json& entry : json::parse(report.substr(begin, report.find("</script>", begin) - begin))) {
-    shown.insert(entry["file"].get<std::string>());
-  }
-  std::set<std::string> named;
-  const json all = results("out");
-  for (const json& cell : all["cells"]) {
-    for (const char* key : {"picture", "error_map"}) {
-      if (cell[key].is_string()) named.insert(cell[key].get<std::string>());
-    }
-  }
-  for (const json& reference : all["scenes"][0]["references"])
-    named.insert(reference["file"].get<std::string>());
-  EXPECT_EQ(named.size(), 4u * 2u + 1u);
-  EXPECT_EQ(shown, named);
+  std::size_t shown = 0;
+  for (std::size_t at = 0; (at = report.find("src=\"data:image/jpeg", at)) != std::string::npos; ++at)
+    ++shown;
+  EXPECT_EQ(shown, 4u * 2u + 1u) << "pictures and FLIP maps of the first seed, and the reference";
+  EXPECT_THAT(report, ::testing::Not(HasSubstr("no picture")));
 }
 
 TEST_F(SweepCells, MeasuresEveryCellAgainstItsReference) {

@@ -1,5 +1,5 @@
 #pragma once
-// A plan of one scene, and what a cell of it measured.
+// A plan of one scene, what a cell of it measured, and the reading of results.csv.
 
 #include <limits>
 #include <string>
@@ -54,6 +54,28 @@ inline CellErrors errors() {
   e.flip.emplace();
   e.flip->summary = {.mean = 0.1, .weighted_median = 0.3, .first_quartile = 0.2, .third_quartile = 0.4};
   return e;
+}
+
+/// Fields of lines, quotes as in RFC 4180.
+inline std::vector<std::vector<std::string>> read_csv(const std::string& text) {
+  std::vector<std::vector<std::string>> rows(1, {""});
+  bool quoted = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (quoted && c == '"' && text[i + 1] == '"') {
+      rows.back().back() += text[++i];
+    } else if (c == '"') {
+      quoted = !quoted;
+    } else if (!quoted && c == ',') {
+      rows.back().emplace_back();
+    } else if (!quoted && c == '\n') {
+      rows.push_back({""});
+    } else {
+      rows.back().back() += c;
+    }
+  }
+  rows.pop_back();
+  return rows;
 }
 
 }  // namespace gatelight::apps

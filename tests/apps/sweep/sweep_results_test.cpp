@@ -23,28 +23,6 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using tests::TemporaryFolder;
 
-/// Fields of lines, quotes as in RFC 4180.
-std::vector<std::vector<std::string>> read_csv(const std::string& text) {
-  std::vector<std::vector<std::string>> rows(1, {""});
-  bool quoted = false;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const char c = text[i];
-    if (quoted && c == '"' && text[i + 1] == '"') {
-      rows.back().back() += text[++i];
-    } else if (c == '"') {
-      quoted = !quoted;
-    } else if (!quoted && c == ',') {
-      rows.back().emplace_back();
-    } else if (!quoted && c == '\n') {
-      rows.push_back({""});
-    } else {
-      rows.back().back() += c;
-    }
-  }
-  rows.pop_back();
-  return rows;
-}
-
 TEST(SweepResults, TheTableEqualsTheJson) {
   const SweepPlan plan = small_plan();
   SceneResults scene;

@@ -179,7 +179,7 @@ TEST_F(SweepResume, CellsOfAnEarlierCallStayInTheResultsOfAStoppedOne) {
   for (const json& cell : after["cells"])
     EXPECT_TRUE(cell["integrator"] == "path" || cell["axes"].contains("hidden"));
   EXPECT_EQ(after["scenes"][1]["references"].size(), 1u);
-  EXPECT_THAT(read_file(folder / "out/report.html"), HasSubstr(before.begin()->first));
+  EXPECT_THAT(read_file(folder / "out/report.html"), HasSubstr("<h2>room</h2>"));
 }
 
 TEST_F(SweepResume, TheReportIsWrittenAfterEachScene) {
@@ -190,7 +190,7 @@ TEST_F(SweepResume, TheReportIsWrittenAfterEachScene) {
   ASSERT_TRUE(process.wait_for_error_text("\"task\":\"cornell-box reference"));
   process.send(SIGKILL);
   process.finish();
-  EXPECT_THAT(read_file(folder / "out/report.html"), HasSubstr("\"scene\":\"room\""));
+  EXPECT_THAT(read_file(folder / "out/report.html"), HasSubstr("<h2>room</h2>"));
 }
 
 TEST_F(SweepResume, OnlyOneSweepAtATimeUsesAFolder) {
