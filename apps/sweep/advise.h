@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/sweep/flag_values.h"
+#include "apps/sweep/measured_runs.h"
 
 namespace gatelight::apps {
 
@@ -15,34 +15,15 @@ struct AdviceLimits {
   std::optional<double> max_seconds;  ///< of scouting, training and rendering
 };
 
-/// The cells of a series with the same number of steps (or samples): means over the seeds.
-struct Configuration {
-  std::string scene;
-  std::string reference;     ///< kind of the reference
-  std::string reference_id;  ///< only errors against the same reference are compared
-  std::string series;
-  FlagValues axes;
-  std::string point;  ///< "128 steps, 4 spp"
-  std::string command;
-  int seeds = 0;
-  double error = 0.0;  ///< FLIP
-  double smallest_error = 0.0;
-  double largest_error = 0.0;
-  double seconds = 0.0;
-};
-
-/// The configurations in results.json, in its order. Cells that failed or have no FLIP are left out.
-std::vector<Configuration> configurations(const nlohmann::ordered_json& results);
-
 struct Advice {
-  Configuration best;
+  const MeasuredRun* best = nullptr;
   bool met = false;  ///< whether it is within the limits; otherwise it is the nearest
 };
 
-/// Chooses among configurations with one reference, at least one: the fastest within max_error (with every
-/// seed), or with only max_seconds the one with the smallest error. Where none meets the limits: the
+/// Chooses among runs with one reference, at least one, all with a FLIP: the fastest within max_error (with
+/// every seed), or with only max_seconds the one with the smallest error. Where none meets the limits: the
 /// smallest error among those that are fast enough, or else the fastest.
-Advice choose(const std::vector<Configuration>& candidates, const AdviceLimits& limits);
+Advice choose(const std::vector<MeasuredRun>& candidates, const AdviceLimits& limits);
 
 struct AdviceReport {
   std::string text;   ///< the advice for each reference, with its command; a line break at its end
