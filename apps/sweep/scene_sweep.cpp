@@ -62,7 +62,6 @@ const renderer::SceneFingerprint& SceneSweep::fingerprint_of(const RenderSetting
 }
 
 bool SceneSweep::decide_memory() {
-  GateMemoryStore store(in_folder("gate-memory.json"));
   for (std::size_t i = 0; i < series_.size(); ++i) {
     PlannedSeries& series = series_[i];
     if (!series.memory) continue;
@@ -72,8 +71,8 @@ bool SceneSweep::decide_memory() {
       const std::string key =
           identity_name(fingerprint_of(gate), {"memory", deciding_text(gate, view_of(scene_, gate.render))});
       // Building and scouting cannot be interrupted.
-      if (!store.knows(key) && stop_signal() != 0) return false;
-      const std::uint64_t bytes = store.bytes(key, scene_, gate.render);
+      if (stop_signal() != 0) return false;
+      const std::uint64_t bytes = gate_memory(in_folder("gate-memory.json"), key, scene_, gate.render);
       const auto wanted =
           static_cast<std::uint64_t>(std::max(1.0, static_cast<double>(bytes) / series.memory->divisor));
       series.settings.render.cache.memory_bytes = wanted;
