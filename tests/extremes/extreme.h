@@ -1,6 +1,5 @@
 #pragma once
-// A row of tests/EXTREMES.md, reported by the test that measured it. scripts/check/write-extremes collects
-// the rows.
+// The row that a test reports for the table of scripts/check/write-extremes.
 
 #include <gtest/gtest.h>
 
