@@ -172,8 +172,7 @@ void refuse_empty_words(const CLI::App& root) {
       for (const std::string& word : option->results()) {
         if (!word.empty()) continue;
         const std::string type = option->get_type_name();
-        throw UsageError(
-            fmt::format("{}: '' is empty, expected {}", option->get_name(), type.empty() ? "a file" : type));
+        throw BadOption({name_of(*option), "", "", type.empty() ? "a file" : type});
       }
     }
   }
@@ -224,8 +223,8 @@ int parse(int argc, const char* const* argv, bool runs, const RankGroup& group) 
     for (const Subcommand& subcommand : subcommands) {
       if (!subcommand.app->parsed()) continue;
       if (!group.ranks.is_single() && !subcommand.of_ranks) {
-        throw UsageError(fmt::format("'{0}' runs in one process: start it by 'gatelight {0}'",
-                                     subcommand.app->get_name()));
+        throw BadOption(fmt::format("'{0}' runs in one process: start it by 'gatelight {0}'",
+                                    subcommand.app->get_name()));
       }
       return runs ? subcommand.run() : kDone;
     }

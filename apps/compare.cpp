@@ -66,8 +66,8 @@ std::vector<Metric> choose_metrics(const CompareSettings& settings) {
     }
     return chosen;
   }
-  for (const std::string& word : split_list("--metric", settings.metrics)) {
-    const Metric metric = parse_choice("--metric", word, kMetrics);
+  for (const std::string& word : split_list("metric", settings.metrics)) {
+    const Metric metric = parse_choice("metric", word, kMetrics);
     if (std::find(chosen.begin(), chosen.end(), metric) == chosen.end()) chosen.push_back(metric);
   }
   return chosen;
@@ -90,13 +90,13 @@ void check_outputs(const CompareSettings& settings) {
     names.read("REFERENCE", settings.frames ? name_of_frame(settings.reference, frame) : settings.reference);
     names.read("TEST", settings.frames ? name_of_frame(settings.test, frame) : settings.test);
   }
-  for (const std::string& half : settings.halves) names.read("--halves", half);
-  names.write("--error-map", settings.error_map);
-  names.write("--json", settings.json);
+  for (const std::string& half : settings.halves) names.read("halves", half);
+  names.write("error-map", settings.error_map);
+  names.write("json", settings.json);
   if (!settings.error_map.empty()) {
-    refuse_frame_place("--error-map", settings.error_map);
+    refuse_frame_place("error-map", settings.error_map);
     if (std::filesystem::path(settings.error_map).extension() != ".png") {
-      throw UsageError(fmt::format("--error-map: '{}' is not a .png file", settings.error_map));
+      throw BadOption({"error-map", settings.error_map, "", "a .png file"});
     }
     renderer::check_image_output(settings.error_map);
   }
@@ -178,7 +178,7 @@ std::vector<Option> option_table(CompareSettings& settings) {
        .value = [&settings]() -> OptionValue {
          return settings.frames ? text_of(*settings.frames) : OptionValue();
        },
-       .read = [&settings](const std::string& text) { settings.frames = parse_frames("--frames", text); }},
+       .read = [&settings](const std::string& text) { settings.frames = parse_frames("frames", text); }},
       any_word(
           "metric", settings.metrics, "LIST",
           "Metrics, separated by commas: mse,rel_mse,psnr,mean,max,ssim,flip,hdr_flip,temporal (default: "

@@ -35,16 +35,14 @@ ComparedFrame compared(int frame, const CompareReport& pair) {
 
 void check_frames(const CompareSettings& settings, const std::vector<Metric>& metrics) {
   if (has(metrics, Metric::temporal) && !settings.has_pairs_of_frames())
-    throw UsageError("--metric: 'temporal' is about pairs of frames, expected --frames with two or more");
+    throw BadOption({"metric", "temporal", "is about pairs of frames", "`frames` with two or more"});
   if (!settings.frames) {
     refuse_frame_place("REFERENCE", settings.reference);
     refuse_frame_place("TEST", settings.test);
     return;
   }
-  if (!settings.halves.empty())
-    throw UsageError("--halves and --frames exclude each other, expected one of them");
-  if (!settings.error_map.empty())
-    throw UsageError("--error-map and --frames exclude each other, expected one of them");
+  if (!settings.halves.empty()) throw BadOption({"halves", "", "excludes `frames`", "one of them"});
+  if (!settings.error_map.empty()) throw BadOption({"error-map", "", "excludes `frames`", "one of them"});
   require_frame_place("REFERENCE", settings.reference);
   require_frame_place("TEST", settings.test);
 }

@@ -8,7 +8,7 @@
 
 namespace gatelight::apps {
 
-/// Throws UsageError where --frames, or its absence, does not go with the names and the other flags.
+/// Throws BadOption where --frames, or its absence, does not go with the names and the other flags.
 void check_frames(const CompareSettings& settings, const std::vector<Metric>& metrics);
 
 /// With --frames: compares frame after frame and writes the results. Two pictures at a time are in memory.

@@ -31,10 +31,6 @@ Examples:
   gatelight denoise blender.exr -o finished.exr --normal-layer ViewLayer.Normal
   gatelight denoise in-%04d.exr -o out-%04d.exr)";
 
-/// The options of `render` that this command has too.
-constexpr const char* kOfRender[] = {"background", "filter",  "filter-width", "prefilter",
-                                     "oidn",       "threads", "memory-limit"};
-
 std::vector<Option> denoise_table(DenoiseSettings& settings) {
   std::vector<Option> table;
   table.push_back(positional("INPUT", settings.input, "Picture, .exr; %04d, #### or {frame}: frames"));
@@ -49,7 +45,7 @@ std::vector<Option> denoise_table(DenoiseSettings& settings) {
        .help = "Frames to denoise (default: all that there are)",
        .value = [] { return OptionValue(); },
        .read = [&settings](
-                   const std::string& text) { settings.frames = parse_frames("--frames", text).numbers(); }});
+                   const std::string& text) { settings.frames = parse_frames("frames", text).numbers(); }});
   const auto add_layer = [&](const char* name, std::string& member, const char* help) {
     input.add(any_word(name, member, "NAME", help));
   };
@@ -60,8 +56,7 @@ std::vector<Option> denoise_table(DenoiseSettings& settings) {
   add_layer("normal-layer", settings.layers.normal,
             "Normals of the visible surfaces, or none (default: by the usual names)");
   for (Option& option : picture_options(settings.render)) {
-    if (std::find(std::begin(kOfRender), std::end(kOfRender), option.name) != std::end(kOfRender))
-      table.push_back(std::move(option));
+    if (option.of_denoise) table.push_back(std::move(option));
   }
   return table;
 }
@@ -76,7 +71,7 @@ Subcommand add_denoise_command(CLI::App& root) {
   return {.app = app,
           .run =
               [app, settings] {
-                const std::vector<std::string> given = given_flags(*app);
+                const std::vector<std::string> given = given_names(*app);
                 return denoise(*settings, {given.begin(), given.end()});
               },
           .options = options};

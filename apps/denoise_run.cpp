@@ -43,9 +43,6 @@ namespace {
 using nlohmann::ordered_json;
 using renderer::LayersToDenoise;
 
-/// Options that the picture's recipe sets, unless a flag does.
-constexpr const char* kOfRecipe[] = {"prefilter", "filter", "filter-width", "background"};
-
 /// Text of a recipe's value, in the syntax that the option reads.
 std::string text_of_value(const ordered_json& value) {
   if (value.is_string()) return value.get<std::string>();
@@ -61,7 +58,7 @@ void apply_recipe(const renderer::Picture& picture, const std::set<std::string>&
   const ordered_json recipe = recipe_options(picture);
   if (!recipe.is_object()) return;
   const auto read = [&](Option& option) {
-    if (given.contains(option.flag()) || !recipe.contains(option.name)) return;
+    if (given.contains(option.name) || !recipe.contains(option.name)) return;
     try {
       option.read(text_of_value(recipe[option.name]));
     } catch (const BadOption& error) {
@@ -69,8 +66,7 @@ void apply_recipe(const renderer::Picture& picture, const std::set<std::string>&
     }
   };
   for (Option& option : picture_options(settings.render)) {
-    if (std::find(std::begin(kOfRecipe), std::end(kOfRecipe), option.name) != std::end(kOfRecipe))
-      read(option);
+    if (option.of_denoise && option.in_recipe == InRecipe::always) read(option);
   }
   std::vector<Option> files;
   OptionGroup group{files, ""};
@@ -146,16 +142,16 @@ class DenoiseRun {
  private:
   void check() {
     if (renderer::image_format(whole_.input) != renderer::ImageFormat::exr)
-      throw UsageError(fmt::format("denoise: '{}' is not an .exr file", whole_.input));
+      throw BadOption({"INPUT", whole_.input, "", "an .exr file"});
     if (whole_.frames || has_frame_place(whole_.input)) find_frames();
     check_stdout(whole_.outputs);
     FileNames names;
     const std::vector<DenoiseSettings> all = pictures();
     for (const DenoiseSettings& picture : all) names.read("INPUT", picture.input);
     for (const std::string& output : whole_.outputs)
-      frames_.empty() ? refuse_frame_place("--output", output) : require_frame_place("--output", output);
+      frames_.empty() ? refuse_frame_place("output", output) : require_frame_place("output", output);
     for (const DenoiseSettings& picture : all) {
-      for (const std::string& output : picture.outputs) names.write("--output", output);
+      for (const std::string& output : picture.outputs) names.write("output", output);
     }
     for (const std::string& output : all.front().outputs) check_picture_output(output);
     check_display(whole_.image.display);

@@ -152,22 +152,22 @@ Description describe(const InfoSettings& settings) {
 void check_picture_flags(const InfoSettings& settings) {
   const std::string& file = settings.render.scene;
   if (settings.command && !is_picture(file))
-    throw UsageError("--command: it is the command line of a picture, expected PICTURE.exr with it");
+    throw BadOption({"command", "", "it is the command line of a picture", "PICTURE.exr with it"});
   if (is_picture(file) && !settings.render.given.empty()) {
-    throw UsageError(
-        fmt::format("{}: it is for scenes, and '{}' is a picture, expected only --command or --json",
-                    *settings.render.given.begin(), file));
+    throw BadOption({*settings.render.given.begin(), "",
+                     fmt::format("it is for scenes, and '{}' is a picture", file),
+                     "only `command` or `json`"});
   }
 }
 
 int run_info(InfoSettings settings) {
   check_picture_flags(settings);
   if (settings.render.scene.empty() && !settings.render.given.empty()) {
-    throw UsageError(fmt::format("{}: it has no effect without a scene, expected SCENE with it",
-                                 *settings.render.given.begin()));
+    throw BadOption(
+        {*settings.render.given.begin(), "", "it has no effect without a scene", "SCENE with it"});
   }
   complete_settings(settings.render);
-  read_files(settings.render).write("--json", settings.json);
+  read_files(settings.render).write("json", settings.json);
   if (!settings.json.empty() && settings.json != "-") check_writable(settings.json);
   const Description description = describe(settings);
   if (!settings.json.empty()) {
@@ -204,7 +204,7 @@ Subcommand add_info_command(CLI::App& root) {
           [app, settings] {
             finish_flags(*app, settings->render);
             // These flags belong to the call, not to the scene.
-            for (const char* name : {"SCENE", "--json", "--command"}) settings->render.given.erase(name);
+            for (const char* name : {"SCENE", "json", "command"}) settings->render.given.erase(name);
             return run_info(*settings);
           },
           common_names(options), false, options};

@@ -61,7 +61,7 @@ struct MergeSettings {
 
 void require_exr(const std::string& file) {
   if (renderer::image_format(file) == renderer::ImageFormat::exr) return;
-  throw UsageError(fmt::format("merge: '{}' is not an .exr file", file));
+  throw BadOption({"INPUT", file, "", "an .exr file"});
 }
 
 void require_finite(const renderer::Picture& picture, const std::string& file) {
@@ -76,7 +76,7 @@ void require_finite(const renderer::Picture& picture, const std::string& file) {
 }
 
 int run_merge(const MergeSettings& settings) {
-  refuse_frame_place("--output", settings.output);
+  refuse_frame_place("output", settings.output);
   require_exr(settings.output);
   for (const std::string& input : settings.inputs) require_exr(input);
   renderer::check_image_output(settings.output);

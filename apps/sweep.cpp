@@ -126,7 +126,7 @@ void add_reference_options(std::vector<Option>& table, SweepSettings& s) {
        .help = "Samples per pixel of rendered references: two halves, whose difference gives their noise",
        .read =
            [&s](const std::string& text) {
-             const std::int64_t spp = parse_integer("--reference-spp", text, kReferenceSpp);
+             const std::int64_t spp = parse_integer("reference-spp", text, kReferenceSpp);
              s.reference_spp = static_cast<int>(spp + spp % 2);
            },
        .default_text = "1024"});
@@ -187,14 +187,12 @@ std::vector<Option> option_table(SweepCall& call) {
 
 /// Without a scene other flags have no effect.
 void refuse_flags_of_scenes(const CLI::App& app) {
-  const std::set<std::string> allowed = {"--output",   "--advise", "--max-error", "--max-time",
-                                         "--progress", "--quiet",  "--verbose"};
-  for (const std::string& name : given_flags(app)) {
+  const std::set<std::string> allowed = {"output",   "advise", "max-error", "max-time",
+                                         "progress", "quiet",  "verbose"};
+  for (const std::string& name : given_names(app)) {
     if (allowed.contains(name)) continue;
-    throw UsageError(fmt::format(
-        "{}: without SCENE it has no effect, expected SCENE with it, or only --advise, its limits and "
-        "--output",
-        name));
+    throw BadOption({name, "", "without SCENE it has no effect",
+                     "SCENE with it, or only `advise`, its limits and `output`"});
   }
 }
 
@@ -202,20 +200,19 @@ void check(const SweepCall& call, const CLI::App& app) {
   const SweepSettings& s = call.settings;
   const bool limited = s.limits.max_error || s.limits.max_seconds;
   if (limited && !s.advise) {
-    throw UsageError(fmt::format("{}: it is for advice, expected --advise with it",
-                                 s.limits.max_error ? "--max-error" : "--max-time"));
+    throw BadOption(
+        {s.limits.max_error ? "max-error" : "max-time", "", "it is for advice", "`advise` with it"});
   }
   if (s.advise && !limited)
-    throw UsageError("--advise: a limit is missing, expected --max-error or --max-time");
+    throw BadOption({"advise", "", "a limit is missing", "`max-error` or `max-time`"});
   if (call.words.scenes.empty() && !s.advise) {
-    throw UsageError("SCENE: it is missing, expected one or more scenes (without one only --advise works)");
+    throw BadOption({"SCENE", "", "it is missing", "one or more scenes (without one only `advise` works)"});
   }
   if (call.words.scenes.empty()) refuse_flags_of_scenes(app);
   if (s.reference_files.size() > 2) {
-    throw UsageError(fmt::format("--reference: '{}' is a third file, expected one picture or two halves",
-                                 s.reference_files[2]));
+    throw BadOption({"reference", s.reference_files[2], "is a third file", "one picture or two halves"});
   }
-  if (s.quiet && s.verbose) throw UsageError("--quiet and --verbose exclude each other, expected one");
+  if (s.quiet && s.verbose) throw BadOption({"quiet", "", "excludes `verbose`", "one of them"});
 }
 
 }  // namespace

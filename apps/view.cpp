@@ -75,10 +75,10 @@ std::unique_ptr<PictureSource> open_source(const WindowSettings& window) {
   std::vector<std::string> words = given_words(window.render);
   const std::set<std::string>& given = window.render.given;
   if (is_picture(file)) {
-    if (!given.contains("--exposure")) words.emplace_back("--exposure=auto");
+    if (!given.contains("exposure")) words.emplace_back("--exposure=auto");
     return std::make_unique<PictureFile>(file, std::move(words));
   }
-  if (!given.contains("--preset") && !given.contains("--integrator"))
+  if (!given.contains("preset") && !given.contains("integrator"))
     words.insert(words.begin(), "--preset=final");
   auto session = std::make_unique<ViewSession>(file, std::move(words));
   for (const std::string& warning : session->warnings()) log_warning(warning);

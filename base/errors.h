@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace gatelight {
 
@@ -25,14 +26,32 @@ enum class ErrorKind : std::uint8_t {
   mpi                 ///< a function of MPI failed
 };
 
-/// The message is one line and names the file or option, the value and what was expected.
+/// An error about an option as data. Fields that do not apply are empty.
+struct ErrorParts {
+  std::string option{};    ///< its name in the table of options, "max-depth"; capitals: an argument
+  std::string value{};     ///< as text
+  std::string problem{};   ///< a clause, "has 5 levels"; empty: the value is not what was expected
+  std::string expected{};  ///< a noun phrase, "an integer from 1 to 5"
+  std::string hint{};      ///< what did_you_mean() returns
+};
+
+/// "spp: 'x' is not an integer from 1 to 5", "stack: '1,2,3' has 3 levels, expected at most 2" or "fps: there
+/// are no frames, expected `frames` with it".
+std::string sentence(const ErrorParts& parts);
+
+/// The message is one line and names the file or option, the value and what was expected. Further options are
+/// in back-ticks.
 class Error : public std::runtime_error {
  public:
   Error(ErrorKind kind, const std::string& message) : std::runtime_error(message), kind_(kind) {}
+  Error(ErrorKind kind, ErrorParts parts);
   ErrorKind kind() const { return kind_; }
+  /// Without an option where the error is about something else: a file, memory.
+  const ErrorParts& parts() const { return parts_; }
 
  private:
   ErrorKind kind_;
+  ErrorParts parts_;
 };
 
 /// An error of one kind, below a more general class.
@@ -40,9 +59,11 @@ template <ErrorKind kKind, class Base = Error>
 class ErrorOf : public Base {
  public:
   explicit ErrorOf(const std::string& message) : Base(kKind, message) {}
+  explicit ErrorOf(ErrorParts parts) : Base(kKind, std::move(parts)) {}
 
  protected:
   ErrorOf(ErrorKind kind, const std::string& message) : Base(kind, message) {}
+  ErrorOf(ErrorKind kind, ErrorParts parts) : Base(kind, std::move(parts)) {}
 };
 
 using BadOption = ErrorOf<ErrorKind::option>;

@@ -2,16 +2,15 @@
 
 #include <fmt/format.h>
 
-#include <string_view>
-
 #include "base/errors.h"
 
 namespace gatelight {
 
-/// Throws BadConfiguration("what: value, expected ...") unless the condition holds.
+/// Throws BadConfiguration about an option of this name unless the condition holds.
 template <typename Number>
-void require(bool holds, std::string_view what, Number value, std::string_view expected) {
-  if (!holds) throw BadConfiguration(fmt::format("{}: {}, expected {}", what, value, expected));
+void require(bool holds, const char* option, Number value, const char* expected) {
+  if (!holds)
+    throw BadConfiguration({.option = option, .value = fmt::format("{}", value), .expected = expected});
 }
 
 }  // namespace gatelight

@@ -42,9 +42,8 @@ function(gatelight_add_tests target)
     if(name MATCHES "_(stat|golden|slow)$")
       set(label ${CMAKE_MATCH_1})
     endif()
-    add_test(NAME ${folder}.${name} COMMAND ${target} "--gtest_filter=${filter}"
-      "--gtest_output=json:${PROJECT_BINARY_DIR}/messages/${folder}.${name}.json")
-    set_tests_properties(${folder}.${name} PROPERTIES LABELS ${label} TIMEOUT ${timeout} FIXTURES_REQUIRED messages)
+    add_test(NAME ${folder}.${name} COMMAND ${target} "--gtest_filter=${filter}")
+    set_tests_properties(${folder}.${name} PROPERTIES LABELS ${label} TIMEOUT ${timeout})
   endforeach()
 endfunction()
 

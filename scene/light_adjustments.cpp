@@ -42,7 +42,7 @@ void adjust_lights(Scene& scene, const std::vector<LightAdjustment>& adjustments
   }
   for (std::size_t i = 0; i < used.size(); ++i) {
     if (!used[i])
-      throw InputError(fmt::format("{}: {}", scene.path, names.no_such_light(adjustments[i].name)));
+      throw InputError(fmt::format("{}: {}", scene.path, sentence(names.no_such_light(adjustments[i].name))));
   }
 }
 

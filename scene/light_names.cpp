@@ -35,7 +35,7 @@ LightNames::LightNames(const Scene& scene) : materials(scene.dark_lights.begin()
   }
 }
 
-std::string LightNames::no_such_light(const std::string& wanted, const std::string& word) const {
+ErrorParts LightNames::no_such_light(const std::string& wanted, const std::string& word) const {
   std::vector<std::string> parts, all(lights.begin(), lights.end());
   all.insert(all.end(), materials.begin(), materials.end());
   if (!lights.empty()) parts.push_back(list_names("one of its lights", lights));
@@ -45,8 +45,9 @@ std::string LightNames::no_such_light(const std::string& wanted, const std::stri
     all.push_back(word);
   }
   if (parts.empty()) parts = {"none: the file has no light and no emissive material"};
-  return fmt::format("there is no light '{}', expected {}{}", wanted, fmt::join(parts, ", or "),
-                     did_you_mean(wanted, all));
+  return {.problem = fmt::format("there is no light '{}'", wanted),
+          .expected = fmt::format("{}", fmt::join(parts, ", or ")),
+          .hint = did_you_mean(wanted, all)};
 }
 
 }  // namespace gatelight::scene

@@ -4,6 +4,7 @@
 #include <set>
 #include <string>
 
+#include "base/errors.h"
 #include "scene/scene.h"
 
 namespace gatelight::scene {
@@ -17,9 +18,9 @@ struct LightNames {
   std::set<std::string> materials;  ///< including those that adjust_lights() made black
 
   explicit LightNames(const Scene& scene);
-  /// "there is no light 'lamb', expected one of its lights 'lamp'; did you mean 'lamp'?". `word` is a
-  /// further valid name; empty means none.
-  std::string no_such_light(const std::string& wanted, const std::string& word = "") const;
+  /// Problem, expected and hint: "there is no light 'lamb', expected one of its lights 'lamp'; did you mean
+  /// 'lamp'?". `word` is a further valid name; empty means none.
+  ErrorParts no_such_light(const std::string& wanted, const std::string& word = "") const;
 };
 
 }  // namespace gatelight::scene

@@ -20,7 +20,7 @@ std::string no_such_light(const Scene& scene, const std::string& wanted) {
       return fmt::format("the light '{}' is directional, expected a point or spot light", light.name);
     names.lights.erase(light.name);
   }
-  return names.no_such_light(wanted);
+  return sentence(names.no_such_light(wanted));
 }
 
 }  // namespace

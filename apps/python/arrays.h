@@ -33,22 +33,19 @@ Array<Number> rows(const char* name, pybind11::handle values, pybind11::ssize_t 
   const std::string expected = columns > 0 ? fmt::format("(n, {})", columns) : "(n,)";
   if (!given) {
     PyErr_Clear();
-    throw BadOption(fmt::format("{}: it is no array, expected one of shape {}", name, expected));
+    throw BadOption({name, "", "it is no array", fmt::format("one of shape {}", expected)});
   }
-  if (!fits)
-    throw BadOption(
-        fmt::format("{}: '{}' is the array's shape, expected {}", name, shape_of(given), expected));
+  if (!fits) throw BadOption({name, shape_of(given), "is the array's shape", expected});
   const char kind = given.dtype().kind();
   const bool integers = std::is_integral_v<Number>;
   if (integers ? kind != 'i' && kind != 'u' : kind != 'f' && kind != 'i' && kind != 'u')
-    throw BadOption(fmt::format("{}: '{}' is the array's type, expected {}", name,
-                                std::string(py::str(given.dtype())), integers ? "integers" : "numbers"));
+    throw BadOption({name, std::string(py::str(given.dtype())), "is the array's type",
+                     integers ? "integers" : "numbers"});
   if (integers && given.size() > 0) {
     const py::object least = given.attr("min")(), greatest = given.attr("max")();
     if (py::int_(least).cast<double>() < 0.0 || py::int_(greatest).cast<double>() > 4294967295.0)
-      throw BadOption(
-          fmt::format("{}: '{}' is not from 0 to 4294967295", name,
-                      std::string(py::str(py::int_(least).cast<double>() < 0.0 ? least : greatest))));
+      throw BadOption({name, std::string(py::str(py::int_(least).cast<double>() < 0.0 ? least : greatest)),
+                       "", "from 0 to 4294967295"});
   }
   return Array<Number>(
       py::reinterpret_borrow<py::object>(given.attr("astype")(py::dtype::of<Number>(), "C")));

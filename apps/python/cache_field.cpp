@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <span>
-#include <string_view>
 #include <utility>
 
 #include "apps/python/keywords.h"
@@ -23,48 +22,13 @@ namespace py = pybind11;
 constexpr std::uint64_t kChosenBytes = std::uint64_t{4} << 20;
 constexpr const char* kKind = "gatelight field 1";
 
-/// Options of caches that have a meaning without light transport.
-constexpr std::string_view kOptions[] = {"encoding",
-                                         "features",
-                                         "stack",
-                                         "resolution",
-                                         "resolution-scale",
-                                         "node-spacing",
-                                         "max-resolution",
-                                         "cluster",
-                                         "storage",
-                                         "hash-levels",
-                                         "hash-features",
-                                         "hash-log2-size",
-                                         "hash-base",
-                                         "hash-growth",
-                                         "cache-memory",
-                                         "feature-precision",
-                                         "hidden",
-                                         "layers",
-                                         "bias",
-                                         "normal-input",
-                                         "batch",
-                                         "learning-rate",
-                                         "learning-decay",
-                                         "loss",
-                                         "update",
-                                         "feature-step",
-                                         "average",
-                                         "query-precision",
-                                         "device",
-                                         "isa",
-                                         "seed"};
-
 /// Throws BadOption for options that a field does not use.
 apps::RenderSettings read_cache_keywords(const py::dict& keywords) {
   apps::RenderSettings settings = read_keywords(keywords);
-  for (const std::string& flag : settings.given) {
-    if (std::find(std::begin(kOptions), std::end(kOptions), flag.substr(2)) != std::end(kOptions)) continue;
-    throw BadOption(
-        fmt::format("{}: a field does not use it, expected one of features, network or training", flag));
-  }
-  if (!settings.given.contains("--loss")) settings.render.cache.training.loss = neural::Loss::l2;
+  require_given(
+      settings, [](const apps::Option& option) { return option.of_field; }, "a field does not use it",
+      "one of features, network or training");
+  if (!settings.given.contains("loss")) settings.render.cache.training.loss = neural::Loss::l2;
   settings.render.cache.training.seed += settings.render.seed;
   return settings;
 }
@@ -161,9 +125,9 @@ FieldPoints FieldPoints::chosen(const std::vector<std::size_t>& indices) const {
 
 CacheField::CacheField(scene::Scene scene, std::uint32_t outputs, const py::dict& keywords)
     : scene_(std::move(scene)), settings_(read_cache_keywords(keywords)) {
-  if (scene_.instances.empty()) throw BadOption("scene: it has no instance, expected triangles");
+  if (scene_.instances.empty()) throw BadOption({"scene", "", "it has no instance", "triangles"});
   if (outputs < 1 || outputs > 16)
-    throw BadOption(fmt::format("outputs: '{}' is not an integer from 1 to 16", outputs));
+    throw BadOption({"outputs", fmt::format("{}", outputs), "", "an integer from 1 to 16"});
   nlohmann::ordered_json options = nlohmann::ordered_json::object();
   for (const auto& [name, value] : keywords)
     if (!value.is_none()) options[std::string(py::str(name))] = text_of(std::string(py::str(name)), value);
@@ -187,24 +151,22 @@ FieldPoints CacheField::points(py::handle instances, py::handle triangles, py::h
   Array<std::uint32_t> i;
   if (!instances.is_none()) i = rows<std::uint32_t>("instances", instances, 0);
   if (b.shape(0) != count || (!instances.is_none() && i.shape(0) != count))
-    throw BadOption(fmt::format(
-        "barycentrics: '{}' is the array's shape, expected ({}, 2) as there are triangles, and as many "
-        "instances",
-        shape_of(b), count));
+    throw BadOption({"barycentrics", shape_of(b), "is the array's shape",
+                     fmt::format("({}, 2) as there are triangles, and as many instances", count)});
   FieldPoints points;
   for (py::ssize_t p = 0; p < count; ++p) {
     const std::uint32_t number = instances.is_none() ? 0 : i.data()[p], triangle = t.data()[p];
     if (number >= scene_.instances.size())
-      throw BadOption(fmt::format("instances: index {} of point {}, expected less than {}", number, p,
-                                  scene_.instances.size()));
+      throw BadOption({"instances", "", fmt::format("index {} of point {}", number, p),
+                       fmt::format("less than {}", scene_.instances.size())});
     const scene::Instance& instance = scene_.instances[number];
     if (triangle >= scene_.mesh_of(instance).triangles.size())
-      throw BadOption(fmt::format("triangles: index {} of point {}, expected less than {}", triangle, p,
-                                  scene_.mesh_of(instance).triangles.size()));
+      throw BadOption({"triangles", "", fmt::format("index {} of point {}", triangle, p),
+                       fmt::format("less than {}", scene_.mesh_of(instance).triangles.size())});
     const float u = b.data()[2 * p], v = b.data()[2 * p + 1];
     if (!(u >= 0.0f) || !(v >= 0.0f) || !(u + v <= 1.0001f))
       throw BadOption(
-          fmt::format("barycentrics: ({}, {}) of point {}, expected weights from 0 to 1 together", u, v, p));
+          {"barycentrics", "", fmt::format("({}, {}) of point {}", u, v, p), "weights from 0 to 1 together"});
     const std::array<Vec3, 3> corners = scene::world_triangle(scene_, instance, triangle);
     const Vec3 position = (1.0f - u - v) * corners[0] + u * corners[1] + v * corners[2];
     const Vec3 normal = scene::world_normal(scene_, instance, triangle);

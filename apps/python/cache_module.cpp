@@ -14,7 +14,7 @@ namespace py = pybind11;
 scene::Scene triangles_of(py::handle given) {
   if (py::isinstance<SceneData>(given)) return given.cast<ScenePointer>()->source;
   if (!py::isinstance<MeshPart>(given))
-    throw BadOption("scene: expected a gatelight.Scene or a gatelight.Mesh");
+    throw BadOption({"scene", "", "it is no scene", "a gatelight.Scene or a gatelight.Mesh"});
   const auto part = given.cast<MeshPart>();
   scene::Scene scene;
   scene.meshes.push_back(part.scene->source.meshes[part.index]);
@@ -34,8 +34,8 @@ py::array train(CacheField& field, const py::object& points, const py::object& t
     given = py::array::ensure(given).attr("reshape")(-1, 1);
   const Array<float> values = rows<float>("targets", given, field.outputs());
   if (static_cast<std::size_t>(values.shape(0)) != of_scene.surfaces.size() || values.shape(0) == 0)
-    throw BadOption(fmt::format("targets: '{}' is the array's shape, expected ({}, {})", shape_of(values),
-                                of_scene.surfaces.size(), field.outputs()));
+    throw BadOption({"targets", shape_of(values), "is the array's shape",
+                     fmt::format("({}, {})", of_scene.surfaces.size(), field.outputs())});
   std::vector<double> losses;
   Waiting waiting(py::none(), stop);
   waiting.run([&] {

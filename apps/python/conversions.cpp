@@ -24,8 +24,7 @@ Vec3 direction(const char* name, py::handle value) {
   Vec3 v = vector(name, value);
   v.stableNormalize();
   if (!v.allFinite() || v.squaredNorm() < 0.5f)
-    throw BadOption(fmt::format("{}: '{}' is no direction, expected a vector that is not zero", name,
-                                text_of(name, value)));
+    throw BadOption({name, text_of(name, value), "is no direction", "a vector that is not zero"});
   return v;
 }
 
@@ -37,19 +36,18 @@ Affine transform(const char* name, py::handle value) {
   const Array<double> matrix = rows<double>(name, value, 4);
   const auto m = matrix.unchecked<2>();
   if (m.shape(0) != 4 && m.shape(0) != 3)
-    throw BadOption(
-        fmt::format("{}: '{}' is the array's shape, expected (4, 4) or (3, 4)", name, shape_of(matrix)));
+    throw BadOption({name, shape_of(matrix), "is the array's shape", "(4, 4) or (3, 4)"});
   Affine result;
   for (py::ssize_t row = 0; row < m.shape(0); ++row) {
     for (py::ssize_t column = 0; column < 4; ++column) {
       const double x = m(row, column);
       if (row == 3) {
         if (x == (column == 3 ? 1.0 : 0.0)) continue;
-        throw BadOption(fmt::format("{}: {} in its last row, expected 0, 0, 0, 1", name, x));
+        throw BadOption({name, "", fmt::format("{} in its last row", x), "0, 0, 0, 1"});
       }
       const auto rounded = static_cast<float>(x);
       if (!std::isfinite(rounded))
-        throw BadOption(fmt::format("{}: {} in row {}, expected finite numbers", name, x, row));
+        throw BadOption({name, "", fmt::format("{} in row {}", x, row), "finite numbers"});
       result.matrix()(row, column) = rounded;
     }
   }

@@ -1,11 +1,8 @@
 #include "apps/python/errors.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <exception>
 #include <new>
-#include <regex>
 #include <string>
 #include <system_error>
 
@@ -18,7 +15,8 @@ namespace {
 namespace py = pybind11;
 
 constexpr const char* kAbout =
-    "A scene, an option or a file cannot be used. The text is the line that the program prints.\n\n"
+    "A scene, an option or a file cannot be used. The text is the line that the program prints, with\n"
+    "keywords for flags.\n\n"
     "option    name of the option as a keyword, else None\n"
     "value     its value as text, else None\n"
     "expected  what was expected, else None\n"
@@ -26,42 +24,20 @@ constexpr const char* kAbout =
 
 py::handle error_class;
 
-/// The parts of a message: "--spp: 'x' is not an integer from 1 to 5" or "...: ..., expected ...".
-struct Parts {
-  py::object option = py::none();
-  py::object value = py::none();
-  py::object expected = py::none();
-};
-
-Parts parts_of(const std::string& message) {
-  static const std::regex option("^(?:--)?([a-z][a-z0-9_-]*)(?::| is missing| and --| [^ ]+: )");
-  static const std::regex value("^(?:--)?[a-z][a-z0-9_-]*: '([^']*)'");
-  static const std::regex expected("(?:[,;] expected | is not )(.*?)(?:; did you mean .*)?$");
-  Parts parts;
-  std::smatch found;
-  if (std::regex_search(message, found, option)) {
-    std::string name = found[1];
-    std::replace(name.begin(), name.end(), '-', '_');
-    parts.option = py::str(name);
-    if (std::regex_search(message, found, value)) parts.value = py::str(found[1].str());
-  }
-  if (std::regex_search(message, found, expected)) parts.expected = py::str(found[1].str());
-  return parts;
-}
-
-/// Sets Python's error from the exception that is being handled.
-void raise_current(bool names_option) {
-  const apps::Failure failure = apps::describe_current_exception();
-  const std::string message = apps::one_line(failure.message);
+/// Sets Python's error from the exception that is being handled, whose parts these are.
+void raise_current(ErrorParts parts) {
+  apps::Failure failure = apps::describe_current_exception();
+  std::replace(parts.option.begin(), parts.option.end(), '-', '_');
+  const std::string message = apps::one_line(parts.option.empty() ? failure.message : sentence(parts));
   const char* const link = failure.advice.empty() ? "" : message.ends_with('?') ? " " : "; ";
-  const bool help = failure.advice == "see --help";
-  const py::object error = py::reinterpret_borrow<py::object>(error_class)(
-      py::str(fmt::format("{}{}{}", message, link, help ? "see help(gatelight.render)" : failure.advice)));
-  Parts parts;
-  if (names_option) parts = parts_of(message);
-  error.attr("option") = parts.option;
-  error.attr("value") = parts.value;
-  error.attr("expected") = parts.expected;
+  if (failure.advice == "see --help") failure.advice = "see help(gatelight.render)";
+  const py::object error = py::reinterpret_borrow<py::object>(error_class)(message + link + failure.advice);
+  const auto set = [&](const char* name, const std::string& text, bool has) {
+    error.attr(name) = has && !parts.option.empty() ? py::object(py::str(text)) : py::none();
+  };
+  set("option", parts.option, true);
+  set("value", parts.value, !parts.value.empty() || parts.problem.empty());
+  set("expected", parts.expected, !parts.expected.empty());
   error.attr("code") = failure.code;
   PyErr_SetObject(error_class.ptr(), error.ptr());
 }
@@ -78,12 +54,11 @@ void add_error(py::module_& module) {
     try {
       std::rethrow_exception(pointer);
     } catch (const Error& error) {
-      raise_current(error.kind() == ErrorKind::option || error.kind() == ErrorKind::unavailable ||
-                    error.kind() == ErrorKind::model);
+      raise_current(error.parts());
     } catch (const std::bad_alloc&) {
-      raise_current(false);
+      raise_current({});
     } catch (const std::system_error&) {
-      raise_current(false);
+      raise_current({});
     }
   });
 }

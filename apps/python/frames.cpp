@@ -19,13 +19,13 @@ Frames::Frames(ScenePointer scene, const py::dict& keywords, py::object progress
       settings_(settings_for(*scene_, keywords)),
       progress_(std::move(progress)),
       stop_(std::move(stop)) {
-  for (const char* flag : {"--checkpoint", "--resume", "--cache-in", "--cache-out"}) {
-    if (settings_.given.contains(flag))
-      throw BadOption(fmt::format("{}: frames have none here, expected it in `gatelight render`", flag));
+  for (const char* option : {"checkpoint", "resume", "cache-in", "cache-out"}) {
+    if (settings_.given.contains(option))
+      throw BadOption({option, "", "frames have none here", "it in `gatelight render`"});
   }
-  if (!settings_.frames.range) throw BadOption("--frames is missing, expected frames or turntable");
+  if (!settings_.frames.range) throw BadOption({"frames", "", "it is missing", "frames or turntable"});
   if (scene_->file && !scene_->loading.load.time && settings_.frames.turntable == 0)
-    throw BadOption("--frames: the scene was loaded without a time, expected gatelight.load(path, time=0)");
+    throw BadOption({"frames", "", "the scene was loaded without a time", "gatelight.load(path, time=0)"});
   frames_ = settings_.frames.range->numbers();
 }
 

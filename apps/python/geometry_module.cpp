@@ -28,8 +28,8 @@ scene::Instance& get(const InstancePart& part) {
   return part.scene->source.instances[part.index];
 }
 
-[[noreturn]] void fail(const char* name, const std::string& what) {
-  throw BadOption(fmt::format("{}: {}", name, what));
+[[noreturn]] void fail(const char* name, const std::string& problem, const std::string& expected = "") {
+  throw BadOption({name, "", problem, expected});
 }
 
 /// Copies an array over rows in place: views of them stay valid.
@@ -38,8 +38,8 @@ void fill(const char* name, py::handle values, Rows& rows_to) {
   constexpr auto columns = static_cast<py::ssize_t>(sizeof(rows_to[0]) / sizeof(float));
   const Array<float> array = rows<float>(name, values, columns);
   if (static_cast<std::size_t>(array.shape(0)) != rows_to.size())
-    fail(name, fmt::format("'{}' is the array's shape, expected ({}, {})", shape_of(array), rows_to.size(),
-                           columns));
+    throw BadOption(
+        {name, shape_of(array), "is the array's shape", fmt::format("({}, {})", rows_to.size(), columns)});
   std::memcpy(static_cast<void*>(rows_to.data()), array.data(), rows_to.size() * sizeof(rows_to[0]));
 }
 
@@ -73,15 +73,15 @@ void read_colors(py::handle values, std::size_t count, std::vector<Vec4>& colors
   for (std::size_t i = 0; i < colors.size(); ++i) {
     const Vec4& c = colors[i];
     if (c.allFinite() && c.minCoeff() >= 0.0f) continue;
-    fail("colors", fmt::format("row {} is ({}, {}, {}, {}), expected finite numbers, not negative", i, c.x(),
-                               c.y(), c.z(), c.w()));
+    fail("colors", fmt::format("row {} is ({}, {}, {}, {})", i, c.x(), c.y(), c.z(), c.w()),
+         "finite numbers, not negative");
   }
 }
 
 int material_index(const ScenePointer& scene, py::handle material) {
   if (material.is_none()) return -1;
   if (!py::isinstance<MaterialPart>(material) || material.cast<MaterialPart>().scene != scene)
-    fail("material", "it is no material of this scene, expected one of scene.materials or None");
+    fail("material", "it is no material of this scene", "one of scene.materials or None");
   return static_cast<int>(material.cast<MaterialPart>().index);
 }
 
@@ -149,7 +149,7 @@ void add_mesh_class(py::module_& module) {
         } else if (own.empty()) {
           own = std::move(colors);
         } else {
-          fail("colors", "None would leave views without their memory, expected an array");
+          fail("colors", "None would leave views without their memory", "an array");
         }
         part.scene->change();
       },
@@ -206,7 +206,7 @@ MeshPart make_mesh(const ScenePointer& scene, py::handle positions, py::handle t
   fill("positions", positions, mesh.positions);
   expect_finite(mesh);
   const Array<std::uint32_t> indices = rows<std::uint32_t>("triangles", triangles, 3);
-  if (indices.shape(0) == 0) fail("triangles", "'(0, 3)' is the array's shape, expected a triangle");
+  if (indices.shape(0) == 0) fail("triangles", "it is empty", "a triangle");
   mesh.triangles.resize(static_cast<std::size_t>(indices.shape(0)));
   std::memcpy(mesh.triangles.data(), indices.data(), mesh.triangles.size() * sizeof(mesh.triangles[0]));
   const std::string wrong = scene::wrong_index(mesh.triangles, vertices);
@@ -225,7 +225,7 @@ MeshPart make_mesh(const ScenePointer& scene, py::handle positions, py::handle t
 InstancePart make_instance(const ScenePointer& scene, py::handle mesh, py::handle matrix,
                            const std::string& name) {
   if (!py::isinstance<MeshPart>(mesh) || mesh.cast<MeshPart>().scene != scene)
-    fail("mesh", "it is no mesh of this scene, expected one of scene.meshes");
+    fail("mesh", "it is no mesh of this scene", "one of scene.meshes");
   scene::Instance instance;
   const std::size_t number = scene->source.instances.size();
   instance.mesh = static_cast<int>(mesh.cast<MeshPart>().index);
@@ -248,7 +248,7 @@ TexturePart make_texture(const ScenePointer& scene, py::handle image, const std:
     if (given.ndim() != 2 && (given.ndim() != 3 || given.shape(2) < 1 || given.shape(2) > 4)) return false;
     return given.size() > 0 && given.shape(0) <= kLargestTexture && given.shape(1) <= kLargestTexture;
   };
-  if (!fits()) fail("image", "expected an array of uint8 of shape (h, w) or (h, w, 1 to 4)");
+  if (!fits()) fail("image", "it is no image", "an array of uint8 of shape (h, w) or (h, w, 1 to 4)");
   const Array<std::uint8_t> bytes(given);
   scene::Image picture;
   picture.name = name;

@@ -1,11 +1,11 @@
 #include "apps/python/keywords.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <vector>
 
-#include "apps/settings/option_table.h"
 #include "apps/settings/other_tools.h"
 #include "base/errors.h"
 #include "base/nearest_word.h"
@@ -55,7 +55,7 @@ bool toggle_value(const Option& option, py::handle value) {
   const std::string text = text_of(option.name, value);
   if (std::find(std::begin(kFrom), std::end(kFrom), text) != std::end(kFrom)) return true;
   if (text == "off" || text == "no" || text == "false") return false;
-  throw BadOption(fmt::format("{}: '{}' is not True or False", option.flag(), text));
+  throw BadOption({option.name, text, "", "True or False"});
 }
 
 void read(const Option& option, py::handle value) {
@@ -71,7 +71,7 @@ void read(const Option& option, py::handle value) {
     return;
   }
   const std::string text = text_of(option.name, value);
-  if (text.empty()) throw BadOption(fmt::format("{}: '' is empty, expected a value or None", option.flag()));
+  if (text.empty()) throw BadOption({option.name, "", "", "a value or None"});
   option.read(text);
 }
 
@@ -95,9 +95,8 @@ std::vector<std::pair<const Option*, py::handle>> match(const std::vector<Option
       std::vector<std::string> names;
       for (const Option& option : table) names.push_back(keyword_of(option.name));
       const std::string other = keyword_of_other_tools(name);
-      throw BadOption(
-          fmt::format("{}: there is no such option, expected one of gatelight.options(){}", name,
-                      other.empty() ? did_you_mean(name, names) : fmt::format("; here it is '{}'", other)));
+      throw BadOption({name, "", "there is no such option", "one of gatelight.options()",
+                       other.empty() ? did_you_mean(name, names) : fmt::format("; here it is '{}'", other)});
     }
     if (!value.is_none()) matched.emplace_back(&*found, value);
   }
@@ -120,18 +119,17 @@ std::string text_of(const std::string& option, py::handle value) {
     return fmt::format("{}:{}:{}", value.attr("start").cast<int>(),
                        value.attr("stop").cast<int>() - (step > 0 ? 1 : -1), step);
   }
-  throw BadOption(fmt::format("--{}: '{}' is not a number, a word, a tuple or a dictionary", option,
-                              std::string(py::str(py::repr(value)))));
+  throw BadOption(
+      {option, std::string(py::str(py::repr(value))), "", "a number, a word, a tuple or a dictionary"});
 }
 
-apps::RenderSettings read_keywords(const py::dict& keywords) {
-  apps::RenderSettings settings;
+apps::RenderSettings read_keywords(const py::dict& keywords, apps::RenderSettings settings) {
   const std::vector<Option> table = apps::option_table(settings);
   const auto values = match(table, keywords);
   const auto read_all = [&] {
     for (const auto& [option, value] : values) {
       read(*option, value);
-      settings.given.insert(option->flag());
+      settings.given.insert(option->name);
     }
   };
   read_all();
@@ -143,11 +141,21 @@ apps::RenderSettings read_keywords(const py::dict& keywords) {
   return settings;
 }
 
-const std::set<std::string>& load_options() {
-  static const std::set<std::string> names = {
-      "--scene-index", "--variant", "--time",    "--animation",      "--show-hidden",    "--backfaces",
-      "--lights",      "--ies",     "--missing", "--allow-external", "--ignore-required"};
-  return names;
+void require_given(const apps::RenderSettings& settings, const std::function<bool(const Option&)>& fits,
+                   const char* problem, std::string expected) {
+  const std::set<std::string> known = apps::option_names(fits);
+  if (expected.empty()) expected = "one of " + keyword_of(fmt::format("{}", fmt::join(known, ", ")));
+  for (const std::string& name : settings.given)
+    if (!known.contains(name)) throw BadOption({name, "", problem, expected});
+}
+
+void replace_keywords(py::dict& keywords, const py::dict& newer) {
+  apps::RenderSettings settings;
+  for (const Option& option : apps::option_table(settings)) {
+    if (!newer.contains(keyword_of(option.name))) continue;
+    for (const std::string& other : option.excludes) keywords.attr("pop")(keyword_of(other), py::none());
+  }
+  for (const auto& [name, value] : newer) keywords[name] = value;
 }
 
 void add_options(py::module_& module) {
@@ -168,11 +176,13 @@ void add_options(py::module_& module) {
                                                             : "";
           entry["group"] = option.group;
           entry["common"] = option.common;
+          entry["loading"] = option.stage == apps::OptionStage::load;
           all[py::str(keyword_of(option.name))] = entry;
         }
         return all;
       },
-      "Every option by name: a dict with its help, values, default, group, and whether it is common.");
+      "Every option by name: a dict with its help, values, default, group, whether it is common, and of "
+      "loading.");
 }
 
 }  // namespace gatelight::python

@@ -53,7 +53,7 @@ struct Setter {
   void operator()(Color Material::*member) const { material.*member = color(field.name, value, field.range); }
   void operator()(bool Material::*member) const {
     if (!py::isinstance<py::bool_>(value))
-      throw BadOption(fmt::format("{}: '{}' is not True or False", field.name, text_of(field.name, value)));
+      throw BadOption({field.name, text_of(field.name, value), "", "True or False"});
     material.*member = value.cast<bool>();
   }
   void operator()(std::string Material::*member) const { material.*member = text_of(field.name, value); }
@@ -66,8 +66,7 @@ struct Setter {
       return;
     }
     if (!py::isinstance<TexturePart>(value) || value.cast<TexturePart>().scene != scene)
-      throw BadOption(fmt::format(
-          "{}: it is no texture of this scene, expected one of scene.add_texture or None", field.name));
+      throw BadOption({field.name, "", "it is no texture of this scene", "one of scene.add_texture or None"});
     material.*member = {.texture = static_cast<int>(value.cast<TexturePart>().index)};
   }
 };
@@ -144,7 +143,7 @@ void set_field(const MaterialField& field, const ScenePointer& scene, Material& 
   std::visit(Setter{field, scene, material, value}, field.member);
   if (material.ior != 0.0f && material.ior < 1.0f) {
     material.ior = 1.0f;
-    throw BadOption("ior: it is below 1, expected 0 or a number of at least 1");
+    throw BadOption({"ior", "", "it is below 1", "0 or a number of at least 1"});
   }
 }
 
@@ -156,8 +155,8 @@ MaterialPart make_material(const ScenePointer& scene, const py::kwargs& keywords
     const auto name = key.cast<std::string>();
     const auto found = std::find(names.begin(), names.end(), name);
     if (found == names.end())
-      throw BadOption(fmt::format("{}: a material has no such member, expected one of gatelight.Material{}",
-                                  name, did_you_mean(name, names)));
+      throw BadOption({name, "", "a material has no such member", "one of gatelight.Material",
+                       did_you_mean(name, names)});
     set_field(material_fields()[static_cast<std::size_t>(found - names.begin())], scene, material, value);
   }
   scene->source.materials.push_back(std::move(material));

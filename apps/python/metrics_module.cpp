@@ -87,7 +87,7 @@ PicturePointer noisy(const py::object& color, const py::object& albedo, const py
     if (values.is_none()) return;
     renderer::Layer layer = layer_of(name, values, name, width, height);
     if (layer.channels.size() != 3)
-      throw BadOption(fmt::format("{}: expected an array of shape (h, w, 3)", name));
+      throw BadOption({name, "", "it has no colours", "an array of shape (h, w, 3)"});
     layer.channels = std::move(channels);
     std::erase_if(data->picture.layers, [&](const renderer::Layer& other) { return other.name == name; });
     data->picture.layers.push_back(std::move(layer));
@@ -100,11 +100,9 @@ PicturePointer noisy(const py::object& color, const py::object& albedo, const py
 PicturePointer denoise(const py::object& color, const py::object& albedo, const py::object& normal,
                        const py::kwargs& keywords) {
   const apps::RenderSettings settings = read_keywords(keywords);
-  for (const std::string& flag : settings.given) {
-    if (flag != "--prefilter" && flag != "--oidn" && flag != "--threads" && flag != "--memory-limit")
-      throw BadOption(fmt::format(
-          "{}: it is no option of a denoiser, expected prefilter, oidn, threads or memory_limit", flag));
-  }
+  require_given(
+      settings, [](const apps::Option& option) { return option.of_denoise; },
+      "it is no option of a denoiser");
   const PicturePointer data = noisy(color, albedo, normal);
   const renderer::RenderOptions& options = settings.render;
   Waiting waiting;
@@ -119,9 +117,10 @@ PicturePointer denoise(const py::object& color, const py::object& albedo, const 
     renderer::Denoiser denoiser(oidn, threads, options.memory_limit_bytes);
     const std::vector<renderer::LayersToDenoise> layers = renderer::layers_to_denoise(data->picture);
     std::optional<renderer::Picture> finished = arena.execute([&] {
-      return renderer::denoise_picture(std::move(data->picture), layers, denoiser,
-                                       {.prefilter = options.denoise.prefilter},
-                                       [&](double) { return !waiting.stopped(); });
+      return renderer::denoise_picture(
+          std::move(data->picture), layers, denoiser,
+          {options.denoise.prefilter, options.filter, options.filter_width, options.background},
+          [&](double) { return !waiting.stopped(); });
     });
     if (finished) data->picture = std::move(*finished);
   });

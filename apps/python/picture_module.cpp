@@ -61,28 +61,16 @@ const renderer::Layer& find(const PictureData& data, const std::string& name) {
 
 /// The picture's way to be shown, with these keywords instead.
 renderer::ImageWriteOptions image_options(const PictureData& data, const py::kwargs& keywords) {
-  const apps::RenderSettings settings = read_keywords(keywords);
-  renderer::ImageWriteOptions image = data.image;
-  for (const std::string& flag : settings.given) {
-    if (flag == "--exposure")
-      image.display.exposure = settings.exposure.value_or(renderer::auto_exposure(data.picture));
-    else if (flag == "--tonemap")
-      image.display.tonemap = settings.image.display.tonemap;
-    else if (flag == "--white-balance")
-      image.display.white_balance = settings.image.display.white_balance;
-    else if (flag == "--bits")
-      image.bits = settings.image.bits;
-    else if (flag == "--exr")
-      image.exr_float = settings.image.exr_float;
-    else if (flag.starts_with("--ocio"))
-      image.display.ocio = settings.image.display.ocio;
-    else
-      throw BadOption(
-          fmt::format("{}: it is no option of a file, expected exposure, tonemap, white_balance, bits, exr "
-                      "or ocio",
-                      flag));
-  }
-  return image;
+  apps::RenderSettings shown;
+  shown.image = data.image;
+  shown.exposure = data.image.display.exposure;
+  apps::RenderSettings settings = read_keywords(keywords, std::move(shown));
+  require_given(
+      settings, [](const apps::Option& option) { return option.stage == apps::OptionStage::output; },
+      "it is no option of a file");
+  settings.image.display.exposure =
+      settings.exposure ? *settings.exposure : renderer::auto_exposure(data.picture);
+  return settings.image;
 }
 
 py::array display(const PictureData& data, const py::kwargs& keywords) {
@@ -120,15 +108,14 @@ renderer::Layer layer_of(const char* name, py::handle values, const char* layer,
   const bool fits =
       given && (given.ndim() == 2 || (given.ndim() == 3 && given.shape(2) == 3)) && given.size() > 0;
   if (!given) PyErr_Clear();
-  if (!fits)
-    throw BadOption(fmt::format("{}: expected a picture, or an array of shape (h, w, 3) or (h, w)", name));
+  if (!fits) throw BadOption({name, "", "it is no picture", "one, or an array of shape (h, w, 3) or (h, w)"});
   if (height == 0) {
     height = static_cast<int>(given.shape(0));
     width = static_cast<int>(given.shape(1));
   }
   if (given.shape(0) != height || given.shape(1) != width)
-    throw BadOption(fmt::format("{}: '{}' is the array's shape, expected ({}, {}) pixels", name,
-                                python::shape_of(given), height, width));
+    throw BadOption({name, python::shape_of(given), "is the array's shape",
+                     fmt::format("({}, {}) pixels", height, width)});
   const Array<float> floats(given);
   const bool grey = given.ndim() == 2;
   return {.name = layer,

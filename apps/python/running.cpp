@@ -20,6 +20,8 @@ namespace gatelight::python {
 namespace {
 
 namespace py = pybind11;
+using apps::Option;
+using apps::OptionStage;
 
 /// A flag during its lifetime.
 class Busy {
@@ -36,38 +38,20 @@ class Busy {
   std::atomic<bool>& flag_;
 };
 
-/// Keywords of the view. A view by hand replaces one by name, and the other way round.
-void replace_view(py::dict& keywords, const py::dict& view) {
-  constexpr const char* kByHand[] = {"eye", "target", "up"};
-  bool by_hand = false;
-  for (const char* name : kByHand) by_hand |= view.contains(name);
-  if (view.contains("camera")) {
-    for (const char* name : kByHand) keywords.attr("pop")(name, py::none());
-  }
-  if (by_hand) keywords.attr("pop")("camera", py::none());
-  for (const auto& [name, value] : view) keywords[name] = value;
-}
-
-/// Options that belong to the program.
-constexpr const char* kOfProgram[] = {"--frame-groups", "--skip-existing"};
-
 }  // namespace
 
 apps::RenderSettings settings_for(const SceneData& scene, const py::dict& keywords) {
   apps::RenderSettings settings = read_keywords(keywords);
-  for (const char* flag : kOfProgram) {
-    if (settings.given.contains(flag))
-      throw BadOption(
-          fmt::format("{}: the module has no such option, expected it in `gatelight render`", flag));
-  }
-  for (const std::string& flag : settings.given) {
-    if (load_options().contains(flag))
-      throw BadOption(fmt::format("{}: it belongs to loading, expected it in gatelight.load", flag));
-  }
+  require_given(
+      settings, [](const Option& option) { return option.stage != OptionStage::program; },
+      "the module has no such option", "it in `gatelight render`");
+  require_given(
+      settings, [](const Option& option) { return option.stage != OptionStage::load; },
+      "it belongs to loading", "it in gatelight.load");
   settings.scene = scene.source.path;
   settings.load = scene.loading.load;
-  if (!settings.given.contains("--fps")) settings.frames.fps = scene.loading.frames.fps;
-  if (!settings.given.contains("--shutter")) settings.frames.shutter = scene.loading.frames.shutter;
+  if (!settings.given.contains("fps")) settings.frames.fps = scene.loading.frames.fps;
+  if (!settings.given.contains("shutter")) settings.frames.shutter = scene.loading.frames.shutter;
   if (settings.frames.any()) settings.load.time.reset();
   apps::show_well(settings);
   apps::complete_settings(settings);
@@ -77,7 +61,7 @@ apps::RenderSettings settings_for(const SceneData& scene, const py::dict& keywor
   settings.scene = path;
   apps::check_outputs(settings);
   if (settings.render.camera.name == "all" && !settings.render.camera.look_at)
-    throw BadOption("--camera: 'all' is for several pictures, expected one camera");
+    throw BadOption({"camera", "all", "is for several pictures", "one camera"});
   if (scene.shown) settings.load.time = scene.shown;
   return settings;
 }
@@ -116,7 +100,7 @@ void Running::build(Unfinished unfinished) {
 PicturePointer Running::render(const py::object& progress, const py::object& stop) {
   const Busy busy(busy_);
   if (settings_.frames.range)
-    throw BadOption("--frames: they are several pictures, expected gatelight.frames()");
+    throw BadOption({"frames", "", "they are several pictures", "gatelight.frames()"});
   stop_ = false;
   const Clock::time_point start = Clock::now();
   const bool changed = !renderer_ || revision_ != scene_->revision;
@@ -151,18 +135,12 @@ PicturePointer Running::render(const py::object& progress, const py::object& sto
 
 void Running::set_camera(const py::dict& keywords) {
   const Busy busy(busy_);
-  constexpr const char* kOfView[] = {"camera",     "eye",         "target",   "up",    "fov",    "lens",
-                                     "projection", "view_height", "aperture", "focus", "blades", "view_file"};
-  for (const auto& [key, value] : keywords) {
-    const auto name = key.cast<std::string>();
-    if (std::find(std::begin(kOfView), std::end(kOfView), name) == std::end(kOfView))
-      throw BadOption(
-          fmt::format("{}: it is no option of the view, expected camera, eye, target, up, fov, lens, "
-                      "projection, view_height, aperture, focus, blades or view_file",
-                      name));
-  }
+  require_given(
+      read_keywords(keywords),
+      [](const Option& option) { return option.of_view || option.name == "view-file"; },
+      "it is no option of the view");
   py::dict merged = keywords_.attr("copy")();
-  replace_view(merged, keywords);
+  replace_keywords(merged, keywords);
   const apps::RenderSettings settings = settings_for(*scene_, merged);
   if (renderer_ && !has_new_options_) renderer_->set_camera(settings.render.camera);
   take(merged, settings);
@@ -171,7 +149,7 @@ void Running::set_camera(const py::dict& keywords) {
 void Running::set_options(const py::dict& keywords) {
   const Busy busy(busy_);
   py::dict merged = keywords_.attr("copy")();
-  replace_view(merged, keywords);
+  replace_keywords(merged, keywords);
   const apps::RenderSettings settings = settings_for(*scene_, merged);
   take(merged, settings);
   has_new_options_ = true;

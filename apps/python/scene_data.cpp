@@ -65,11 +65,13 @@ void complete_own_meshes(scene::Scene& scene, const std::vector<char>& own) {
 
 ScenePointer load_scene(const std::string& path, const py::dict& keywords) {
   apps::RenderSettings settings = read_keywords(keywords);
-  for (const std::string& flag : settings.given) {
-    if (load_options().contains(flag) || flag == "--threads" || flag == "--fps" || flag == "--shutter")
-      continue;
-    throw BadOption(fmt::format("{}: it does not belong to loading, expected it in gatelight.render", flag));
-  }
+  require_given(
+      settings,
+      [](const apps::Option& option) {
+        return option.stage == apps::OptionStage::load || option.name == "threads" || option.name == "fps" ||
+               option.name == "shutter";
+      },
+      "it does not belong to loading", "it in gatelight.render");
   settings.scene = path;
   apps::complete_settings(settings);
   apps::check_inputs(settings);

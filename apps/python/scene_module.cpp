@@ -23,8 +23,8 @@ py::list parts(const ScenePointer& scene, std::size_t count) {
 
 void show(const ScenePointer& scene, double seconds) {
   if (!scene->file || !scene->loading.load.time)
-    throw BadOption("--time: the scene was loaded without one, expected gatelight.load(path, time=...)");
-  if (!std::isfinite(seconds)) throw BadOption(fmt::format("--time: '{}' is not a finite number", seconds));
+    throw BadOption({"time", "", "the scene was loaded without one", "gatelight.load(path, time=...)"});
+  if (!std::isfinite(seconds)) throw BadOption({"time", fmt::format("{}", seconds), "", "a finite number"});
   scene->shown = seconds;
   scene->change();
 }

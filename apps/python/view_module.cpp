@@ -106,8 +106,8 @@ void set_members(const std::vector<Field<Object>>& fields, const char* what, Obj
     const std::string name = py::str(key);
     const auto found = std::find(names.begin(), names.end(), name);
     if (found == names.end())
-      throw BadOption(fmt::format("{}: {} has no such member, expected one of gatelight.{}{}", name, what,
-                                  what, did_you_mean(name, names)));
+      throw BadOption({name, "", fmt::format("{} has no such member", what),
+                       fmt::format("one of gatelight.{}", what), did_you_mean(name, names)});
     const Field<Object>& field = fields[static_cast<std::size_t>(found - names.begin())];
     field.set(object, value);
   }
@@ -135,7 +135,7 @@ Affine look_at(const Vec3& eye, const Vec3& target, const Vec3& up) {
   const Vec3 right = up.cross(back).stableNormalized();
   if (!right.allFinite() || right.squaredNorm() < 0.5f)
     throw BadOption(
-        "up: it is parallel to the view, or target is the place of eye, expected another direction");
+        {"up", "", "it is parallel to the view, or target is the place of eye", "another direction"});
   Affine transform = Affine::Identity();
   transform.linear().col(0) = right;
   transform.linear().col(1) = back.cross(right);
@@ -151,7 +151,7 @@ LightPart make_light(const ScenePointer& scene, const std::string& type, const p
   light.type = apps::parse_choice("type", type, kTypes);
   set_members(light_fields(), "Light", light, keywords);
   if (light.type == LightType::spot && light.cos_inner < light.cos_outer)
-    throw BadOption("inner_angle: it is larger than outer_angle, expected at most that");
+    throw BadOption({"inner_angle", "", "it is larger than outer_angle", "at most that"});
   scene->source.lights.push_back(std::move(light));
   scene->change();
   return {{scene, scene->source.lights.size() - 1}};
@@ -165,7 +165,7 @@ CameraPart make_camera(const ScenePointer& scene, const py::kwargs& keywords) {
   };
   const py::object eye = take("eye"), target = take("target"), up = take("up");
   if (eye.is_none() != target.is_none())
-    throw BadOption(fmt::format("{} is missing, expected eye and target", eye.is_none() ? "eye" : "target"));
+    throw BadOption({eye.is_none() ? "eye" : "target", "", "it is missing", "eye and target"});
   if (!eye.is_none())
     camera.transform = look_at(vector("eye", eye), vector("target", target),
                                up.is_none() ? Vec3(0.0f, 1.0f, 0.0f) : vector("up", up));

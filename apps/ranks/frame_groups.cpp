@@ -54,12 +54,12 @@ RankGroup own_group(int groups, const RankGroup& all) {
   }
   if (groups == 1) return all;
   if (all.ranks.is_single())
-    throw UsageError(
-        "--frame-groups: one process is one group, expected several ranks of gatelight-mpi, by mpirun or "
-        "srun");
+    throw BadOption({"frame-groups", "", "one process is one group",
+                     "several ranks of gatelight-mpi, by mpirun or srun"});
   if (groups > all.ranks.count())
-    throw UsageError(fmt::format("--frame-groups: {} ranks cannot be {} groups, expected at most {}",
-                                 all.ranks.count(), groups, all.ranks.count()));
+    throw BadOption({"frame-groups", "",
+                     fmt::format("{} ranks cannot be {} groups", all.ranks.count(), groups),
+                     fmt::format("at most {}", all.ranks.count())});
   const int number = number_of_group(groups, all.ranks);
   RankGroup own{all.split(number), all.local_count, {}, all.split, all.stop_others};
   for (std::size_t rank = 0; rank < all.hosts.size(); ++rank) {

@@ -15,7 +15,7 @@ namespace gatelight::apps {
 /// The group of this rank: neighbours, and groups that differ by one rank at most.
 int number_of_group(int groups, const renderer::Ranks& all);
 
-/// The ranks of this rank's group; all of them where there is one. Throws UsageError for more groups than
+/// The ranks of this rank's group; all of them where there is one. Throws BadOption for more groups than
 /// ranks, InputError where the ranks want different numbers of groups. All ranks call it.
 RankGroup own_group(int groups, const RankGroup& all);
 

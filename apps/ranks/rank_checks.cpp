@@ -66,7 +66,7 @@ std::string name_of_rank(int rank, int count, const std::string& host) {
 void share_machines(RenderSettings& settings, const RankGroup& group) {
   if (group.ranks.is_single()) return;
   renderer::RenderOptions& options = settings.render;
-  if (!settings.given.contains("--threads")) {
+  if (!settings.given.contains("threads")) {
     const int processors = std::max(static_cast<int>(std::thread::hardware_concurrency()), 1);
     const int fair = std::max(processors / group.local_count, 1);
     options.threads = std::min(available_threads(), fair);

@@ -66,7 +66,7 @@ void PictureMaker::write(renderer::Picture picture, const renderer::RenderStatis
 }
 
 void PictureMaker::warn_of_glare(const renderer::Picture& picture, const renderer::DisplayOptions& display) {
-  if (!settings_.exposure || settings_.given.contains("--exposure") || glare_reported_ ||
+  if (!settings_.exposure || settings_.given.contains("exposure") || glare_reported_ ||
       !shows_on_a_screen(settings_.outputs))
     return;
   const std::string text = glare_warning(picture, display, renderer::auto_exposure(picture), bright_lights_);

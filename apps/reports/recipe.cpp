@@ -34,12 +34,12 @@ struct Json {
 
 ordered_json resolved_options(RenderSettings settings) {
   const std::vector<Option> table = option_table(settings);
-  const std::set<std::string> without_effect = flags_without_effect(settings);
+  const std::set<std::string> without_effect = options_without_effect(settings);
   ordered_json json;
   for (const Option& option : table) {
     const bool said = option.in_recipe == InRecipe::always ||
                       (option.in_recipe == InRecipe::unless_reproducible && !settings.reproducible);
-    if (!said || without_effect.contains(option.flag())) continue;
+    if (!said || without_effect.contains(option.name)) continue;
     const ordered_json value = std::visit(Json{option.of_cache}, option.value());
     if (!value.is_null()) json[option.name] = value;
   }

@@ -34,33 +34,33 @@ bool is_nrc(const RenderOptions& o) {
 bool is_gate(const RenderOptions& o) {
   return o.cache.encoding == FeatureEncoding::gate;
 }
-constexpr Requirement kNrc{is_nrc, "--integrator nrc"};
-constexpr Requirement kGate{is_gate, "--encoding gate"};
-constexpr Requirement kHashGrid{[](const RenderOptions& o) { return !is_gate(o); }, "--encoding hashgrid"};
+constexpr Requirement kNrc{is_nrc, "`integrator` nrc"};
+constexpr Requirement kGate{is_gate, "`encoding` gate"};
+constexpr Requirement kHashGrid{[](const RenderOptions& o) { return !is_gate(o); }, "`encoding` hashgrid"};
 constexpr Requirement kNrcOrHashGrid{[](const RenderOptions& o) { return is_nrc(o) || !is_gate(o); },
-                                     "--integrator nrc or --encoding hashgrid"};
+                                     "`integrator` nrc or `encoding` hashgrid"};
 constexpr Requirement kSelfTraining{
-    [](const RenderOptions& o) { return o.cache.self_training.start_step >= 0; }, "--self-training STEP"};
+    [](const RenderOptions& o) { return o.cache.self_training.start_step >= 0; }, "`self-training` STEP"};
 constexpr Requirement kSpread{[](const RenderOptions& o) { return o.cache.query_at == QueryAt::spread; },
-                              "--query-at spread"};
+                              "`query-at` spread"};
 /// The view of the cache is at the first vertex, or its reference.
 constexpr Requirement kFinalView{[](const RenderOptions& o) {
                                    return o.cache.view == CacheOutput::final ||
                                           o.cache.query_at == QueryAt::primary ||
                                           o.cache.query_at == QueryAt::none;
                                  },
-                                 "--view final"};
+                                 "`view` final"};
 constexpr Requirement kPicturePoints{
     [](const RenderOptions& o) { return o.cache.source == TrainingSource::picture; },
-    "--training-points picture"};
+    "`training-points` picture"};
 constexpr Requirement kTriangles{[](const RenderOptions& o) { return is_gate(o) || o.cache.candidates == 1; },
-                                 "--encoding gate"};
+                                 "`encoding` gate"};
 constexpr Requirement kPaperRule{
     [](const RenderOptions& o) { return o.cache.gate.rule == neural::ResolutionRule::paper; },
-    "--resolution paper"};
+    "`resolution` paper"};
 constexpr Requirement kUniformRule{
     [](const RenderOptions& o) { return o.cache.gate.rule == neural::ResolutionRule::uniform; },
-    "--resolution uniform"};
+    "`resolution` uniform"};
 
 std::string stack_text(const std::vector<std::uint32_t>& stack) {
   std::vector<std::string> levels;
@@ -70,14 +70,14 @@ std::string stack_text(const std::vector<std::uint32_t>& stack) {
 
 /// "adaptive,adaptive/4,1": kAdaptive, adaptive_part(4) and 1.
 std::vector<std::uint32_t> read_stack(const std::string& text) {
-  const std::string flag = "--stack", part = "adaptive/";
-  const std::vector<std::string> words = split_list(flag, text);
+  const std::string option = "stack", part = "adaptive/";
+  const std::vector<std::string> words = split_list(option, text);
   if (words.size() > neural::kMaxStack) {
-    throw BadOption(fmt::format("{}: '{}' has {} levels, expected at most {}", flag, text, words.size(),
-                                neural::kMaxStack));
+    throw BadOption({option, text, fmt::format("has {} levels", words.size()),
+                     fmt::format("at most {}", neural::kMaxStack)});
   }
   const auto number = [&](const std::string& word, const IntegerRange& range) {
-    return static_cast<std::uint32_t>(parse_integer(flag, word, range));
+    return static_cast<std::uint32_t>(parse_integer(option, word, range));
   };
   std::vector<std::uint32_t> stack;
   for (const std::string& word : words) {
@@ -100,20 +100,18 @@ std::string resolution_text(const neural::GateOptions& gate) {
 }
 
 void read_resolution(const std::string& text, neural::GateOptions& gate) {
-  const std::string flag = "--resolution";
+  const std::string option = "resolution";
   if (text.starts_with(kFixed)) {
     gate.fixed_resolution =
-        static_cast<std::uint32_t>(parse_integer(flag, text.substr(kFixed.size()), kResolution));
+        static_cast<std::uint32_t>(parse_integer(option, text.substr(kFixed.size()), kResolution));
     gate.rule = neural::ResolutionRule::fixed;
   } else if (text == "uniform" || text == "paper") {
-    gate.rule = parse_choice(flag, text, kEnumNames<neural::ResolutionRule>);
+    gate.rule = parse_choice(option, text, kEnumNames<neural::ResolutionRule>);
   } else if (!text.empty() && text.find_first_not_of("0123456789x") == std::string::npos) {
-    throw BadOption(
-        fmt::format("{}: '{}' is no resolution of a cache, expected uniform, paper or fixed:R; the size of "
-                    "the picture is '--size WxH'",
-                    flag, text));
+    throw BadOption({option, text, "is no resolution of a cache",
+                     "uniform, paper or fixed:R; the size of the picture is `size` WxH"});
   } else {
-    refuse_choice(flag, text, "uniform|paper|fixed:R");
+    refuse_choice(option, text, "uniform|paper|fixed:R");
   }
 }
 
@@ -121,7 +119,7 @@ std::string read_device(const std::string& text) {
   constexpr std::string_view kChosen = "vulkan:";
   const bool chosen = text.starts_with(kChosen) && text.size() > kChosen.size();
   if (text != "cpu" && text != "vulkan" && !chosen)
-    refuse_choice("--device", text, "cpu|vulkan|vulkan:INDEX|vulkan:NAME");
+    refuse_choice("device", text, "cpu|vulkan|vulkan:INDEX|vulkan:NAME");
   return text;
 }
 
@@ -138,7 +136,7 @@ void add_self_training_options(OptionGroup& group, SelfTrainingOptions& options)
        .read =
            [&options](const std::string& text) {
              options.start_step =
-                 text == "off" ? -1 : static_cast<int>(parse_integer("--self-training", text, kSteps));
+                 text == "off" ? -1 : static_cast<int>(parse_integer("self-training", text, kSteps));
            }},
       {kNrc});
   group.add(number("self-training-vertices", vertices, kPaths, "N",
@@ -158,20 +156,21 @@ void add_training_options(OptionGroup& group, neural::TrainingOptions& options) 
          seed] = options;
   auto& [learning_rate, beta1, beta2, epsilon, l2_network, decay_steps] = adam;
   auto& [average_network, average_features, average_decay, average_ramp] = average;
-  group.add(number("learning-rate", learning_rate, kNotNegative, "X", "Size of a training step (of Adam)"));
-  group.add(number("learning-decay", decay_steps, kNotNegative, "STEPS",
-                   "The learning rate falls with 1/sqrt(1 + step/STEPS); 0: it stays"));
-  group.add(
-      choice("loss", loss, "Squared error, as it is or relative to the squared luminance of the answer"));
-  group.add(
-      choice("update", update, "Which feature vectors a step changes: those that its records touch, or all"));
-  group.add(choice("feature-step", feature_step,
-                   "Step count of a feature vector (for Adam): its own, or that of its triangles as in the "
-                   "paper"),
-            {kGate});
+  const auto add = [&](Option option, std::vector<Requirement> needs = {}) -> Option& {
+    return group.add(of_field(std::move(option)), std::move(needs));
+  };
+  add(number("learning-rate", learning_rate, kNotNegative, "X", "Size of a training step (of Adam)"));
+  add(number("learning-decay", decay_steps, kNotNegative, "STEPS",
+             "The learning rate falls with 1/sqrt(1 + step/STEPS); 0: it stays"));
+  add(choice("loss", loss, "Squared error, as it is or relative to the squared luminance of the answer"));
+  add(choice("update", update, "Which feature vectors a step changes: those that its records touch, or all"));
+  add(choice("feature-step", feature_step,
+             "Step count of a feature vector (for Adam): its own, or that of its triangles as in the "
+             "paper"),
+      {kGate});
   Option& averaged =
-      group.add(choice("average", average_network, kOnOff,
-                       "Answer with a running average of features and weights instead of the last ones"));
+      add(choice("average", average_network, kOnOff,
+                 "Answer with a running average of features and weights instead of the last ones"));
   averaged.read = [&options = average, read = averaged.read](const std::string& text) {
     read(text);
     options.features = options.network;
@@ -184,8 +183,8 @@ void add_learning_options(std::vector<Option>& table, CacheOptions& options) {
                              "Training steps before the picture; auto: by its pixels and samples; 0: none")));
   group.add(not_in_sweep(number("train-time", options.train_seconds, kNotNegative, "SECONDS",
                                 "No further step after this time of training; 0: no limit")));
-  group.add(number("batch", options.batch, {1, 1 << 24}, "N",
-                   "Records (points with their light) in a training step"));
+  group.add(of_field(number("batch", options.batch, {1, 1 << 24}, "N",
+                            "Records (points with their light) in a training step")));
   group.add(
       number("train-path-length", options.path_length, {0, 65536}, "N",
              "0: only Russian roulette ends a training path, and each vertex becomes a record; N: paths "
@@ -211,7 +210,7 @@ void add_gate_options(OptionGroup& group, neural::GateOptions& options, std::opt
   auto& [features, stack, rule, node_spacing, resolution_scale, fixed_resolution, max_resolution, storage,
          cluster, memory_budget, budget_is_cap, bytes_per_feature] = options;
   const auto add = [&](Option option, std::vector<Requirement> needs = {kGate}) {
-    group.add(std::move(option), std::move(needs));
+    group.add(of_field(std::move(option)), std::move(needs));
   };
   add(number("features", features, kFeatures, "L", "gate: numbers in a feature vector"));
   add({.name = "stack",
@@ -228,9 +227,9 @@ void add_gate_options(OptionGroup& group, neural::GateOptions& options, std::opt
        .read = [&options](const std::string& text) { read_resolution(text, options); }});
   add(number("resolution-scale", resolution_scale, kPositive, "X", "gate: factor of the paper's rule"),
       {kGate, kPaperRule});
-  group.add(number_or("auto", "node-spacing", spacing, kPositive, "METRES",
-                      "gate: distance between feature vectors; auto: by the width of pixels on the surfaces"),
-            {kGate, kUniformRule});
+  add(number_or("auto", "node-spacing", spacing, kPositive, "METRES",
+                "gate: distance between feature vectors; auto: by the width of pixels on the surfaces"),
+      {kGate, kUniformRule});
   add(number("max-resolution", max_resolution, kResolution, "R", "gate: largest adaptive resolution"));
   add(choice("cluster", cluster, kAutoOff,
              "gate: share feature vectors where triangles are smaller than the node spacing"));
@@ -241,7 +240,7 @@ void add_gate_options(OptionGroup& group, neural::GateOptions& options, std::opt
 void add_hash_grid_options(OptionGroup& group, neural::HashGridOptions& options) {
   auto& [levels, features, base_resolution, growth, log2_table_size, memory_target, bytes_per_feature,
          bounds_min, bounds_max] = options;
-  const auto add = [&](Option option) { group.add(std::move(option), {kHashGrid}); };
+  const auto add = [&](Option option) { group.add(of_field(std::move(option)), {kHashGrid}); };
   add(number("hash-levels", levels, {1, neural::kMaxHashLevels}, "N", "hashgrid: levels"));
   add(number("hash-features", features, kFeatures, "N", "hashgrid: numbers in an entry"));
   add(number("hash-log2-size", log2_table_size, {3, 31}, "N",
@@ -254,36 +253,36 @@ void add_hash_grid_options(OptionGroup& group, neural::HashGridOptions& options)
 void add_shape_options(std::vector<Option>& table, CacheOptions& options) {
   auto& [width, hidden_layers, outputs, leaky_slope, biases] = options.mlp;
   OptionGroup group{table, "Cache, what it is"};
-  group.add(choice("encoding", options.encoding,
-                   // The first encodes nothing.
-                   Choices<FeatureEncoding>(kEnumNames<FeatureEncoding>).subspan(1),
-                   "Where features lie: on the triangles, or in a hash grid in space"));
+  const auto add = [&](Option option) { group.add(of_field(std::move(option))); };
+  add(choice("encoding", options.encoding,
+             // The first encodes nothing.
+             Choices<FeatureEncoding>(kEnumNames<FeatureEncoding>).subspan(1),
+             "Where features lie: on the triangles, or in a hash grid in space"));
   add_gate_options(group, options.gate, options.node_spacing);
   add_hash_grid_options(group, options.hash_grid);
   const auto read_memory = [&options](const std::string& text) {
-    const double bytes = parse_real("--cache-memory", text, {0.0, 1099511627776.0}) * 1048576.0;
+    const double bytes = parse_real("cache-memory", text, {0.0, 1099511627776.0}) * 1048576.0;
     options.memory_bytes = static_cast<std::uint64_t>(std::ceil(bytes));
   };
-  group.add({.name = "cache-memory",
-             .unit = "MIB",
-             .help = "Largest memory of the features, in MiB; they are as fine as fits; 0: no limit",
-             .value = [&options] { return static_cast<double>(options.memory_bytes) / 1048576.0; },
-             .read = read_memory});
-  group.add(choice("feature-precision", options.training.precision,
-                   "fp16: features are read as 16 bits but trained as 32; fp16-only: half the memory in "
-                   "training too"));
-  group.add(choice("hidden", width, kHiddenWidths, "Width of the network's hidden layers"));
-  group.add(
-      number("layers", hidden_layers, {1, neural::kMaxLayers - 1}, "N", "Hidden layers of the network"));
-  group.add(choice("bias", biases, kOnOff, "Whether the network's layers have biases"));
+  add({.name = "cache-memory",
+       .unit = "MIB",
+       .help = "Largest memory of the features, in MiB; they are as fine as fits; 0: no limit",
+       .value = [&options] { return static_cast<double>(options.memory_bytes) / 1048576.0; },
+       .read = read_memory});
+  add(choice("feature-precision", options.training.precision,
+             "fp16: features are read as 16 bits but trained as 32; fp16-only: half the memory in "
+             "training too"));
+  add(choice("hidden", width, kHiddenWidths, "Width of the network's hidden layers"));
+  add(number("layers", hidden_layers, {1, neural::kMaxLayers - 1}, "N", "Hidden layers of the network"));
+  add(choice("bias", biases, kOnOff, "Whether the network's layers have biases"));
   group.add(
       choice("direction-input", options.direction_input, kInputs,
              "The network reads the direction of view; auto: where a material of the scene depends on it "
              "and --cache-roughness is below 0.5"),
       {kNrc});
-  group.add(choice("normal-input", options.normal_input, kInputs,
-                   "The network reads the normal; auto: yes, but as in the paper where gate has --resolution "
-                   "paper"));
+  add(choice("normal-input", options.normal_input, kInputs,
+             "The network reads the normal; auto: yes, but as in the paper where gate has --resolution "
+             "paper"));
   group.add(choice("albedo-input", options.albedo_input, kInputs,
                    "The network reads the albedo; auto: with the hash grid"),
             {kNrcOrHashGrid});
@@ -313,13 +312,15 @@ void add_answer_options(std::vector<Option>& table, CacheOptions& options) {
   group.add(number("spread-threshold", options.spread_threshold, kNotNegative, "X",
                    "For --query-at spread: spread of the path over that of its first segment; more is later"),
             {kNrc, kSpread});
-  group.add(choice("query-precision", options.bf16_queries, kPrecisions,
-                   "Arithmetic of answers in the picture; bf16 is faster where the processor has it"));
+  group.add(
+      of_field(choice("query-precision", options.bf16_queries, kPrecisions,
+                      "Arithmetic of answers in the picture; bf16 is faster where the processor has it")));
   group.add({.name = "device",
              .unit = "cpu|vulkan[:INDEX|NAME]",
              .help = "Device that trains and evaluates the cache",
              .value = [&options] { return options.device; },
-             .read = [&options](const std::string& text) { options.device = read_device(text); }});
+             .read = [&options](const std::string& text) { options.device = read_device(text); },
+             .of_field = true});
 }
 
 }  // namespace

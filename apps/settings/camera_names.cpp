@@ -55,19 +55,17 @@ std::string single_name(const RenderSettings& settings, const scene::Scene& scen
 
 void check_camera_names(const RenderSettings& settings) {
   if (!names_all(settings)) return;
-  const auto require = [&](const char* flag, const std::string& file) {
+  const auto require = [&](const char* option, const std::string& file) {
     if (!file.empty() && file.find(kCamera) == std::string::npos)
-      throw UsageError(
-          fmt::format("{}: '{}' is one file for all cameras, expected {{camera}} in its name", flag, file));
+      throw BadOption({option, file, "is one file for all cameras", "{camera} in its name"});
   };
-  for (const std::string& output : settings.outputs) require("--output", output);
-  if (settings.stats != "-") require("--stats", settings.stats);
-  const auto refuse = [&](const char* flag, const std::string& file) {
-    if (!file.empty())
-      throw UsageError(fmt::format("{}: '{}' belongs to one picture, expected one --camera", flag, file));
+  for (const std::string& output : settings.outputs) require("output", output);
+  if (settings.stats != "-") require("stats", settings.stats);
+  const auto refuse = [&](const char* option, const std::string& file) {
+    if (!file.empty()) throw BadOption({option, file, "belongs to one picture", "one `camera`"});
   };
-  refuse("--checkpoint", settings.render.checkpoint.file);
-  refuse("--cache-out", settings.render.cache.cache_out);
+  refuse("checkpoint", settings.render.checkpoint.file);
+  refuse("cache-out", settings.render.cache.cache_out);
 }
 
 std::vector<RenderSettings> pictures_of(const RenderSettings& settings, const scene::Scene& scene) {
@@ -82,7 +80,7 @@ std::vector<RenderSettings> pictures_of(const RenderSettings& settings, const sc
     return pictures;
   }
   if (scene.cameras.empty())
-    throw InputError(fmt::format("--camera all: {} has no camera, expected --eye and --target", scene.path));
+    throw InputError(fmt::format("`camera` all: {} has no camera, expected `eye` and `target`", scene.path));
   for (std::size_t i = 0; i < scene.cameras.size(); ++i) {
     renderer::CameraOptions& camera = add(file_name(scene, i)).render.camera;
     camera.name = fmt::format("{}", i);

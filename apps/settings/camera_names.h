@@ -14,7 +14,7 @@ namespace gatelight::apps {
 /// end a folder's name. Throws InputError where the file has no camera.
 std::vector<RenderSettings> pictures_of(const RenderSettings& settings, const scene::Scene& scene);
 
-/// Before the scene is loaded. Throws UsageError for --camera all where the pictures would have one file.
+/// Before the scene is loaded. Throws BadOption for --camera all where the pictures would have one file.
 void check_camera_names(const RenderSettings& settings);
 
 }  // namespace gatelight::apps

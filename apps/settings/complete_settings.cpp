@@ -42,19 +42,17 @@ std::uint64_t pixels_of(const RenderOptions& options) {
 
 void complete_view(RenderSettings& settings) {
   if (settings.render.camera.fov_degrees && settings.render.camera.focal_mm)
-    throw UsageError("--fov and --lens exclude each other, expected one of them");
+    throw BadOption({"fov", "", "excludes `lens`", "one of them"});
   const LensOptions& lens = settings.render.camera.lens;
   const bool sharp = !(lens.aperture > 0.0f) && !(lens.f_stop > 0.0f);
-  for (const auto& [flag, used] :
-       {std::pair("--focus", !lens.focus.empty()), {"--blades", lens.blades > 0}}) {
-    if (sharp && used && settings.given.contains(flag))
-      throw UsageError(
-          fmt::format("{}: without an aperture all is sharp, expected --aperture with it", flag));
+  for (const auto& [name, used] : {std::pair("focus", !lens.focus.empty()), {"blades", lens.blades > 0}}) {
+    if (sharp && used && settings.given.contains(name))
+      throw BadOption({name, "", "without an aperture all is sharp", "`aperture` with it"});
   }
   if (!settings.eye && !settings.target && !settings.up) return;
   if (!settings.eye || !settings.target) {
-    throw UsageError(fmt::format("{} is missing: a view by hand needs --eye and --target",
-                                 settings.eye ? "--target" : "--eye"));
+    throw BadOption(
+        {settings.eye ? "target" : "eye", "", "it is missing", "a view by hand with `eye` and `target`"});
   }
   LookAt look_at{.eye = vector(*settings.eye), .target = vector(*settings.target)};
   if (settings.up) look_at.up = vector(*settings.up);
@@ -62,17 +60,15 @@ void complete_view(RenderSettings& settings) {
   const Eigen::Vector3d direction = look_at.target.cast<double>() - look_at.eye.cast<double>();
   const Eigen::Vector3d up = look_at.up.cast<double>();
   if (direction.norm() == 0.0) {
-    throw UsageError(
-        fmt::format("--target: '{}' is the place of --eye, expected another", text(*settings.target)));
+    throw BadOption({"target", text(*settings.target), "is the place of `eye`", "another"});
   }
-  if (up.norm() == 0.0) throw UsageError("--up: '0,0,0' is no direction, expected a vector that is not zero");
+  if (up.norm() == 0.0) throw BadOption({"up", "0,0,0", "is no direction", "a vector that is not zero"});
   if (direction.normalized().cross(up.normalized()).norm() < 1e-6) {
-    throw UsageError(fmt::format("--up: '{},{},{}' is parallel to the view, expected another direction",
-                                 up.x(), up.y(), up.z()));
+    throw BadOption({"up", fmt::format("{},{},{}", up.x(), up.y(), up.z()), "is parallel to the view",
+                     "another direction"});
   }
   if (!settings.render.camera.name.empty()) {
-    throw UsageError(fmt::format("--camera: '{}' and --eye exclude each other, expected one of them",
-                                 settings.render.camera.name));
+    throw BadOption({"camera", settings.render.camera.name, "excludes `eye`", "one of them"});
   }
   settings.render.camera.look_at = look_at;
 }
@@ -82,73 +78,74 @@ void complete_frames(RenderSettings& settings) {
   if (frames.turntable > 0 && !frames.range) frames.range = FrameList{{{0, frames.turntable - 1}}};
   settings.load.shutter = frames.shutter_seconds();
   if (!frames.range) {
-    if (settings.given.contains("--fps") && !frames.shutter.is_open())
-      throw UsageError("--fps: there are no frames, expected --frames or --turntable with it");
+    if (settings.given.contains("fps") && !frames.shutter.is_open())
+      throw BadOption({"fps", "", "there are no frames", "`frames` or `turntable` with it"});
     if (frames.shutter.is_open() && !settings.load.time)
-      throw UsageError("--shutter: without a moment nothing moves, expected --time or --frames with it");
+      throw BadOption({"shutter", "", "without a moment nothing moves", "`time` or `frames` with it"});
     return;
   }
-  if (settings.load.time) throw UsageError("--time and --frames exclude each other, expected one of them");
+  if (settings.load.time) throw BadOption({"time", "", "excludes `frames`", "one of them"});
   settings.load.time = frames.seconds(0);
 }
 
 /// Files of several frames need a place for their number; those of one picture have none.
 void check_frame_names(const RenderSettings& settings) {
-  const auto check = [&](const char* flag, const std::string& name) {
+  const auto check = [&](const char* option, const std::string& name) {
     if (name.empty()) return;
-    if (!settings.frames.range) return refuse_frame_place(flag, name);
-    if (!settings.frames.range->is_single()) require_frame_place(flag, name);
+    if (!settings.frames.range) return refuse_frame_place(option, name);
+    if (!settings.frames.range->is_single()) require_frame_place(option, name);
   };
-  for (const std::string& output : settings.outputs) check("--output", output);
-  check("--stats", settings.stats);
+  for (const std::string& output : settings.outputs) check("output", output);
+  check("stats", settings.stats);
 }
 
 void check_picture(const RenderOptions& options) {
   const std::int64_t pixels = static_cast<std::int64_t>(options.width) * options.height;
   if (pixels > kMaxPixels) {
-    throw UsageError(fmt::format("--size: '{}x{}' has {} pixels, expected at most {}", options.width,
-                                 options.height, pixels, kMaxPixels));
+    throw BadOption({"size", fmt::format("{}x{}", options.width, options.height),
+                     fmt::format("has {} pixels", pixels), fmt::format("at most {}", kMaxPixels)});
   }
   if (!options.region) return;
   const auto [x0, y0, x1, y1] = *options.region;
   if (x1 > options.width || y1 > options.height) {
-    throw UsageError(
-        fmt::format("--region: '{},{},{},{}' reaches beyond the picture, expected x1 <= {} and y1 <= {}", x0,
-                    y0, x1, y1, options.width, options.height));
+    throw BadOption({"region", fmt::format("{},{},{},{}", x0, y0, x1, y1), "reaches beyond the picture",
+                     fmt::format("x1 <= {} and y1 <= {}", options.width, options.height)});
   }
 }
 
-std::string no_cache(const RenderOptions& o) {
-  return fmt::format("the integrator '{}' has no cache, expected --integrator nao or nrc",
-                     enum_name(o.integrator));
+ErrorParts no_cache(const RenderOptions& o) {
+  return {.problem = fmt::format("the integrator '{}' has no cache", enum_name(o.integrator)),
+          .expected = "`integrator` nao or nrc"};
 }
 
-/// Why an option has no effect here; empty where it has one.
-std::string why_without_effect(const Option& option, const RenderOptions& options) {
-  if (option.of_cache && !uses_cache(options.integrator)) return no_cache(options);
+/// Why an option has no effect here; without a problem where it has one.
+ErrorParts why_without_effect(const Option& option, const RenderOptions& options) {
+  ErrorParts why;
   for (const Requirement& need : option.needs) {
-    if (!need.met(options)) return fmt::format("it has no effect here, expected it with {}", need.expected);
+    if (why.problem.empty() && !need.met(options))
+      why = {.problem = "it has no effect here", .expected = std::string("it with ") + need.expected};
   }
-  return "";
+  if (option.of_cache && !uses_cache(options.integrator)) why = no_cache(options);
+  why.option = option.name;
+  return why;
 }
 
 /// A flag of the cache selects an integrator with a cache; light groups need path tracing.
 void resolve_integrator(RenderSettings& settings) {
   RenderOptions& o = settings.render;
-  if (settings.given.contains("--spp")) o.spp_of_paths = 0;
+  if (settings.given.contains("spp")) o.spp_of_paths = 0;
   if (o.choose_integrator && !o.light_groups.empty()) o.integrator = Integrator::path;
   if (o.integrator == Integrator::path) renderer::use_integrator(o, Integrator::path);
   if (!o.choose_integrator) return;
   for (const Option& option : option_table(settings)) {
-    if (option.of_cache && settings.given.contains(option.flag())) o.choose_integrator = false;
+    if (option.of_cache && settings.given.contains(option.name)) o.choose_integrator = false;
   }
 }
 
 void refuse_without_effect(RenderSettings& settings) {
   for (const Option& option : option_table(settings)) {
-    const std::string why = why_without_effect(option, settings.render);
-    if (!why.empty() && settings.given.contains(option.flag()))
-      throw UsageError(fmt::format("{}: {}", option.flag(), why));
+    const ErrorParts why = why_without_effect(option, settings.render);
+    if (!why.problem.empty() && settings.given.contains(option.name)) throw BadOption(why);
   }
 }
 
@@ -158,8 +155,8 @@ void open_samples(RenderSettings& settings) {
   constexpr int kMostForError = 65536;
   RenderOptions& o = settings.render;
   const bool timed = o.time_limit_seconds > 0.0;
-  if (timed && settings.preset && !settings.given.contains("--train-steps")) o.cache.train_steps.reset();
-  if (settings.given.contains("--spp") || (!timed && o.max_error <= 0.0)) return;
+  if (timed && settings.preset && !settings.given.contains("train-steps")) o.cache.train_steps.reset();
+  if (settings.given.contains("spp") || (!timed && o.max_error <= 0.0)) return;
   if (!timed && uses_cache(o.integrator) && !o.cache.train_steps && o.cache.cache_in.empty())
     o.cache.train_steps = choose_training_steps(o, pixels_of(o));  // for the usual number of samples
   o.spp = timed ? kUnlimitedSpp : kMostForError;
@@ -176,46 +173,41 @@ void adapt_cache(RenderSettings& settings) {
     o.candidates = 1;
   }
   if (o.source == TrainingSource::picture && !training_gives_samples(settings.render)) {
-    if (settings.given.contains("--training-points")) {
-      throw UsageError(
-          "--training-points: 'picture' does not go with these options, expected --view final and no "
-          "--candidates, --samples-per-point and --train-path-length");
+    if (settings.given.contains("training-points")) {
+      throw BadOption({"training-points", "picture", "does not go with these options",
+                       "`view` final and no `candidates`, `samples-per-point` and `train-path-length`"});
     }
     o.source = TrainingSource::camera;
   }
   if (o.view == CacheOutput::cache && o.query_at != QueryAt::none) o.query_at = QueryAt::primary;
   // Occlusion is one number in [0, 1]: its loss needs no relative weight.
-  if (settings.render.integrator == Integrator::nao && !settings.given.contains("--loss")) {
+  if (settings.render.integrator == Integrator::nao && !settings.given.contains("loss")) {
     o.training.loss = neural::Loss::l2;
   }
 }
 
-/// Why a layer would be black, and what it needs; empty where it would not.
-std::string why_black(Aov aov, const RenderOptions& o, bool frames) {
-  if ((aov == Aov::motion || aov == Aov::motion_next) && !frames)
-    return "a still has no motion, expected --frames";
-  if (aov < Aov::cache_radiance) return "";
+/// Why a layer would be black; without a problem where it would not.
+ErrorParts why_black(Aov aov, const RenderOptions& o, bool frames) {
+  const bool of_motion = aov == Aov::motion || aov == Aov::motion_next;
+  if (of_motion && !frames) return {.problem = "a still has no motion", .expected = "`frames`"};
+  if (aov < Aov::cache_radiance) return {};
   if (!uses_cache(o.integrator)) return no_cache(o);
-  if (aov == Aov::cache_error && o.integrator == Integrator::nao) {
-    return "the integrator 'nao' has no record to compare with, expected --integrator nrc";
-  }
-  if (aov == Aov::cache_radiance && o.integrator == Integrator::nao) {
-    return "the integrator 'nao' stores no radiance, expected --integrator nrc";
-  }
+  const bool of_radiance = aov == Aov::cache_error || aov == Aov::cache_radiance;
+  if (of_radiance && o.integrator == Integrator::nao)
+    return {.problem = "the integrator 'nao' stores no radiance", .expected = "`integrator` nrc"};
   const bool of_triangles = aov == Aov::training_count || aov == Aov::resolution || aov == Aov::nearest_node;
-  if (of_triangles && o.cache.encoding == neural::FeatureEncoding::hash_grid) {
-    return "the encoding 'hashgrid' does not store by triangle, expected --encoding gate";
-  }
-  return "";
+  if (of_triangles && o.cache.encoding == neural::FeatureEncoding::hash_grid)
+    return {.problem = "the encoding 'hashgrid' does not store by triangle", .expected = "`encoding` gate"};
+  return {};
 }
 
 /// Layers that would be black are left out of `all`, and refused otherwise.
 void complete_aovs(RenderOptions& o, bool frames) {
   if (o.aovs.size() == std::size(kEnumNames<Aov>))
-    std::erase_if(o.aovs, [&](Aov aov) { return !why_black(aov, o, frames).empty(); });
+    std::erase_if(o.aovs, [&](Aov aov) { return !why_black(aov, o, frames).problem.empty(); });
   for (const Aov aov : o.aovs) {
-    const std::string why = why_black(aov, o, frames);
-    if (!why.empty()) throw UsageError(fmt::format("--aov: '{}' would be black: {}", enum_name(aov), why));
+    if (const ErrorParts why = why_black(aov, o, frames); !why.problem.empty())
+      throw BadOption({"aov", enum_name(aov), "would be black: " + why.problem, why.expected});
   }
 }
 
@@ -223,9 +215,9 @@ void check_checkpoint(const RenderSettings& settings) {
   const CheckpointOptions& checkpoint = settings.render.checkpoint;
   if (!checkpoint.file.empty()) return;
   if (checkpoint.resume)
-    throw UsageError("--resume: there is nothing to go on with, expected --checkpoint FILE with it");
-  if (settings.given.contains("--checkpoint-every"))
-    throw UsageError("--checkpoint-every: there is nothing to write, expected --checkpoint FILE with it");
+    throw BadOption({"resume", "", "there is nothing to go on with", "`checkpoint` FILE with it"});
+  if (settings.given.contains("checkpoint-every"))
+    throw BadOption({"checkpoint-every", "", "there is nothing to write", "`checkpoint` FILE with it"});
 }
 
 void require_file(const std::string& what, const std::string& path) {
@@ -239,26 +231,24 @@ void require_file(const std::string& what, const std::string& path) {
 
 }  // namespace
 
-std::set<std::string> flags_without_effect(RenderSettings settings) {
-  std::set<std::string> flags;
+std::set<std::string> options_without_effect(RenderSettings settings) {
+  std::set<std::string> names;
   for (const Option& option : option_table(settings)) {
-    if (!why_without_effect(option, settings.render).empty()) flags.insert(option.flag());
+    if (!why_without_effect(option, settings.render).problem.empty()) names.insert(option.name);
   }
-  return flags;
+  return names;
 }
 
 void complete_settings(RenderSettings& settings) {
-  if (settings.quiet && settings.verbose)
-    throw UsageError("--quiet and --verbose exclude each other, expected one");
+  if (settings.quiet && settings.verbose) throw BadOption({"quiet", "", "excludes `verbose`", "one of them"});
   settings.image.display.exposure = settings.exposure.value_or(0.0f);
   read_view_file(settings);
   complete_view(settings);
-  if (settings.render.environment.sky && settings.given.contains("--environment"))
-    throw UsageError("--sky and --environment exclude each other, expected one of them");
+  if (settings.render.environment.sky && settings.given.contains("environment"))
+    throw BadOption({"sky", "", "excludes `environment`", "one of them"});
   complete_frames(settings);
   if (!settings.load.animation.empty() && !settings.load.time)
-    throw UsageError(
-        "--animation: without a moment nothing is animated, expected --time or --frames with it");
+    throw BadOption({"animation", "", "without a moment nothing is animated", "`time` or `frames` with it"});
   check_picture(settings.render);
   resolve_integrator(settings);
   check_light_groups(settings.render);

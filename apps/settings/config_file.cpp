@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cctype>
 #include <istream>
 #include <memory>
@@ -107,7 +108,8 @@ std::string with_config_file(const std::string& message, const ConfigFile& confi
   std::size_t first = std::string::npos;
   std::string origin;
   for (const std::string& flag : config.flags) {
-    const std::size_t at = find_flag(message, flag);
+    const std::size_t at =
+        std::min(find_flag(message, flag), message.find(fmt::format("`{}`", flag.substr(2))));
     if (at >= first) continue;
     first = at;
     origin = fmt::format(" ('{}' sets {})", config.name, flag);

@@ -27,40 +27,40 @@ fs::path place_of(const std::string& name) {
 
 }  // namespace
 
-void FileNames::read(std::string_view flag, const std::string& name) {
-  if (is_file(name)) flags_.emplace(place_of(name), flag);
+void FileNames::read(std::string_view option, const std::string& name) {
+  if (is_file(name)) flags_.emplace(place_of(name), option);
 }
 
-void FileNames::write(std::string_view flag, const std::string& name, std::string_view may_replace) {
+void FileNames::write(std::string_view option, const std::string& name, std::string_view may_replace) {
   if (!is_file(name)) return;
-  const auto [entry, is_new] = flags_.emplace(place_of(name), flag);
+  const auto [entry, is_new] = flags_.emplace(place_of(name), option);
   if (is_new || entry->second == may_replace) return;
-  if (entry->second == flag)
-    throw UsageError(fmt::format("{}: '{}' is named twice, expected different files", flag, name));
-  throw UsageError(
-      fmt::format("{}: '{}' is the file of {} too, expected another", flag, name, entry->second));
+  if (entry->second == option)
+    throw BadOption({std::string(option), name, "is named twice", "different files"});
+  throw BadOption(
+      {std::string(option), name, fmt::format("is the file of `{}` too", entry->second), "another"});
 }
 
 FileNames read_files(const RenderSettings& settings) {
   FileNames names;
   names.read("SCENE", settings.scene);
-  for (const scene::LightProfile& profile : settings.load.profiles) names.read("--ies", profile.file);
-  names.read("--environment", settings.render.environment.file);
-  names.read("--background", settings.render.background.file);
-  names.read("--view-file", settings.view_file);
-  names.read("--config", settings.config);
-  names.read("--cache-in", settings.render.cache.cache_in);
+  for (const scene::LightProfile& profile : settings.load.profiles) names.read("ies", profile.file);
+  names.read("environment", settings.render.environment.file);
+  names.read("background", settings.render.background.file);
+  names.read("view-file", settings.view_file);
+  names.read("config", settings.config);
+  names.read("cache-in", settings.render.cache.cache_in);
   return names;
 }
 
 void check_file_names(std::span<const RenderSettings> pictures) {
   FileNames names = read_files(pictures.front());
   for (const RenderSettings& picture : pictures) {
-    for (const std::string& output : picture.outputs) names.write("--output", output);
-    names.write("--stats", picture.stats);
+    for (const std::string& output : picture.outputs) names.write("output", output);
+    names.write("stats", picture.stats);
   }
-  names.write("--cache-out", pictures.front().render.cache.cache_out, "--cache-in");
-  names.write("--checkpoint", pictures.front().render.checkpoint.file);
+  names.write("cache-out", pictures.front().render.cache.cache_out, "cache-in");
+  names.write("checkpoint", pictures.front().render.checkpoint.file);
 }
 
 }  // namespace gatelight::apps

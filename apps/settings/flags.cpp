@@ -27,11 +27,6 @@ void add_flag(CLI::App& app, const Option& option) {
   if (const std::string text = option.shown_default(); !text.empty()) flag->default_str(text);
 }
 
-/// The name of a flag; the library gives none for flags that are not in the help.
-std::string name_of(const CLI::Option& option) {
-  return option.get_lnames().empty() ? option.get_name() : "--" + option.get_lnames().front();
-}
-
 }  // namespace
 
 CLI::App* add_subcommand(CLI::App& root, const char* name, const char* description, const char* footer) {
@@ -46,12 +41,17 @@ void add_flags(CLI::App& app, const std::vector<Option>& options) {
   }
 }
 
-std::vector<std::string> given_flags(const CLI::App& app) {
-  std::vector<std::string> flags;
+std::string name_of(const CLI::Option& option) {
+  // The library gives no name for flags that are not in the help.
+  return option.get_lnames().empty() ? option.get_name() : option.get_lnames().front();
+}
+
+std::vector<std::string> given_names(const CLI::App& app) {
+  std::vector<std::string> names;
   for (const CLI::Option* option : app.get_options()) {
-    if (option->count() > 0) flags.push_back(name_of(*option));
+    if (option->count() > 0) names.push_back(name_of(*option));
   }
-  return flags;
+  return names;
 }
 
 void finish_flags(CLI::App& app, RenderSettings& settings) {
@@ -63,7 +63,7 @@ void finish_flags(CLI::App& app, RenderSettings& settings) {
       if (option->count() > 0) option->run_callback();
     }
   }
-  const std::vector<std::string> given = given_flags(app);
+  const std::vector<std::string> given = given_names(app);
   settings.given.insert(given.begin(), given.end());
   const CLI::Option* config = app.get_parent() ? app.get_parent()->get_config_ptr() : nullptr;
   if (config != nullptr && config->count() > 0) settings.config = config->as<std::string>();
@@ -80,7 +80,7 @@ RenderSettings read_render_words(const std::string& scene, const std::vector<std
   try {
     app.parse(reversed);
   } catch (const CLI::ParseError& error) {
-    throw UsageError(error.what());
+    throw BadOption(error.what());
   }
   finish_flags(app, settings);
   return settings;

@@ -10,7 +10,8 @@
 
 namespace CLI {
 class App;
-}
+class Option;
+}  // namespace CLI
 
 namespace gatelight::apps {
 
@@ -20,14 +21,16 @@ CLI::App* add_subcommand(CLI::App& root, const char* name, const char* descripti
 /// Adds flags. The members that the options are bound to must outlive the parsing.
 void add_flags(CLI::App& app, const std::vector<Option>& options);
 
-/// After parsing: the flags given on the command line or in --config, with their dashes.
-std::vector<std::string> given_flags(const CLI::App& app);
+/// The name of an option in its table.
+std::string name_of(const CLI::Option& option);
+/// The names of the options on the command line or in --config.
+std::vector<std::string> given_names(const CLI::App& app);
 
 /// After parsing: applies the preset and then reads all given flags again, so that they override it.
 void finish_flags(CLI::App& app, RenderSettings& settings);
 
 /// The settings of `gatelight render SCENE WORDS` with presets applied. Outputs may be missing. Call
-/// complete_settings() afterwards. Throws UsageError.
+/// complete_settings() afterwards. Throws BadOption.
 RenderSettings read_render_words(const std::string& scene, const std::vector<std::string>& words);
 
 }  // namespace gatelight::apps

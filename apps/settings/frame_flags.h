@@ -5,7 +5,7 @@
 
 namespace gatelight::apps {
 
-/// Throws UsageError where --frame-groups deals frames that depend on the frame before.
+/// Throws BadOption where --frame-groups deals frames that depend on the frame before.
 void check_frame_groups(const RenderSettings& settings);
 
 /// The same for the integrator, which may be chosen for the scene.

@@ -61,25 +61,23 @@ std::int64_t count_of(const FrameRange& range) {
   return (std::int64_t{range.last} - range.first) / range.step + 1;
 }
 
-FrameRange parse_range(const std::string& flag, const std::string& text, const std::string& part) {
-  const auto refuse = [&](const char* expected) {
-    return UsageError(fmt::format("{}: '{}', expected {}", flag, text, expected));
-  };
+FrameRange parse_range(const std::string& option, const std::string& text, const std::string& part) {
+  const auto refuse = [&](const char* expected) { return BadOption({option, text, "", expected}); };
   static const std::regex pattern(R"((-?\d+)(?:[:-](-?\d+)(?:[:x](-?\d+))?)?)");
   std::smatch parts;
   if (!std::regex_match(part, parts, pattern))
     throw refuse("whole numbers: A:B or A:B:STEP, or a list such as 1,3,5-9");
   const IntegerRange frames{-kFurthestFrame, kFurthestFrame};
   const auto number = [&](std::size_t i) {
-    return static_cast<int>(parse_integer(flag, parts.str(i), frames));
+    return static_cast<int>(parse_integer(option, parts.str(i), frames));
   };
   FrameRange range;
   range.first = range.last = number(1);
   if (parts[2].matched) range.last = number(2);
   if (parts[3].matched) range.step = number(3);
-  if (range.step == 0) throw refuse("a step other than 0");
+  if (range.step == 0) throw refuse("a range with a step other than 0");
   if (range.last != range.first && (range.last > range.first) != (range.step > 0))
-    throw refuse("the last frame in the direction of the step; A:B:-1 goes backwards");
+    throw refuse("a range with the last frame in the direction of the step; A:B:-1 goes backwards");
   return range;
 }
 
@@ -102,14 +100,13 @@ bool FrameList::is_single() const {
                      [&](const FrameRange& range) { return range.first == first() && count_of(range) == 1; });
 }
 
-FrameList parse_frames(const std::string& flag, const std::string& text) {
+FrameList parse_frames(const std::string& option, const std::string& text) {
   FrameList frames;
   std::int64_t count = 0;
   for (const std::string& part : split(text, ',')) {
-    frames.ranges.push_back(parse_range(flag, text, part));
+    frames.ranges.push_back(parse_range(option, text, part));
     count += count_of(frames.ranges.back());
-    if (count > kMostFrames)
-      throw UsageError(fmt::format("{}: '{}', expected at most 1,000,000 frames", flag, text));
+    if (count > kMostFrames) throw BadOption({option, text, "", "at most 1,000,000 frames"});
   }
   return frames;
 }
@@ -133,32 +130,30 @@ int common_step(const std::vector<int>& frames) {
   return step;
 }
 
-double parse_fps(const std::string& flag, const std::string& text) {
+double parse_fps(const std::string& option, const std::string& text) {
   constexpr RealRange kFps{1e-3, 1e6};
   const std::size_t slash = text.find('/');
-  if (slash == std::string::npos) return parse_real(flag, text, kFps);
+  if (slash == std::string::npos) return parse_real(option, text, kFps);
   const std::optional<double> above = to_number<double>(text.substr(0, slash));
   const std::optional<double> below = to_number<double>(text.substr(slash + 1));
   const double fps = above.value_or(0.0) / below.value_or(0.0);
   if (!(fps >= kFps.min && fps <= kFps.max))
-    throw UsageError(
-        fmt::format("{}: '{}', expected a number or two with a / such as 30000/1001, from {} to {}", flag,
-                    text, kFps.min, kFps.max));
+    throw BadOption(
+        {option, text, "",
+         fmt::format("a number or two with a / such as 30000/1001, from {} to {}", kFps.min, kFps.max)});
   return fps;
 }
 
-ShutterRange parse_shutter(const std::string& flag, const std::string& text) {
+ShutterRange parse_shutter(const std::string& option, const std::string& text) {
   const std::size_t colon = text.find(':');
   constexpr double kLongest = 1000.0;
   const RealRange frames{-kLongest, kLongest};
   ShutterRange shutter;
   if (colon != std::string::npos) {
-    shutter.opens = parse_real(flag, text.substr(0, colon), frames);
-    shutter.closes = parse_real(flag, text.substr(colon + 1), frames);
+    shutter.opens = parse_real(option, text.substr(0, colon), frames);
+    shutter.closes = parse_real(option, text.substr(colon + 1), frames);
   }
-  if (!shutter.is_open())
-    throw UsageError(
-        fmt::format("{}: '{}', expected OPEN:CLOSE in frames, OPEN less than CLOSE", flag, text));
+  if (!shutter.is_open()) throw BadOption({option, text, "", "OPEN:CLOSE in frames, OPEN less than CLOSE"});
   return shutter;
 }
 
@@ -170,20 +165,17 @@ bool has_frame_place(std::string_view name) {
   return !find_place(std::string(name)).empty();
 }
 
-void refuse_frame_place(std::string_view flag, const std::string& name) {
+void refuse_frame_place(std::string_view option, const std::string& name) {
   const std::string place = find_place(file_of(name));
   if (place.empty()) return;
-  throw UsageError(
-      fmt::format("{}: '{}' has the place of a frame's number, '{}', expected a name without it for a single "
-                  "picture",
-                  flag, name, place));
+  throw BadOption({std::string(option), name, fmt::format("has the place of a frame's number, '{}'", place),
+                   "a name without it for a single picture"});
 }
 
-void require_frame_place(std::string_view flag, const std::string& name) {
+void require_frame_place(std::string_view option, const std::string& name) {
   if (has_frame_place(name)) return;
-  throw UsageError(
-      fmt::format("{}: '{}' is one file for all frames, expected a place for their number in its name: %04d",
-                  flag, name));
+  throw BadOption({std::string(option), name, "is one file for all frames",
+                   "a place for their number in its name: %04d"});
 }
 
 std::string name_of_frame(std::string_view name, int frame) {

@@ -46,29 +46,29 @@ struct FrameSettings {
 };
 
 /// Reads "A", "A:B", "A-B" and either with ":STEP" or "xSTEP", and lists of these with commas. Throws
-/// UsageError, which names the flag.
-FrameList parse_frames(const std::string& flag, const std::string& text);
+/// BadOption, which names the option.
+FrameList parse_frames(const std::string& option, const std::string& text);
 std::string text_of(const FrameList& frames);
 
 /// Frames from each of them to the next, where that is the same for all; else 1.
 int common_step(const std::vector<int>& frames);
 
-/// Reads a number, or "30000/1001". Throws UsageError, which names the flag.
-double parse_fps(const std::string& flag, const std::string& text);
+/// Reads a number, or "30000/1001". Throws BadOption, which names the option.
+double parse_fps(const std::string& option, const std::string& text);
 
-/// Reads "OPEN:CLOSE". Throws UsageError, which names the flag.
-ShutterRange parse_shutter(const std::string& flag, const std::string& text);
+/// Reads "OPEN:CLOSE". Throws BadOption, which names the option.
+ShutterRange parse_shutter(const std::string& option, const std::string& text);
 std::string text_of(const ShutterRange& shutter);
 
 /// Whether the name, or that of a folder in it, holds the place of a frame's number: "%04d", "####" or
 /// "{frame}". "%%" is a % and no place.
 bool has_frame_place(std::string_view name);
 
-/// For names of a single picture. Throws UsageError where the file's name holds such a place.
-void refuse_frame_place(std::string_view flag, const std::string& name);
+/// For names of a single picture. Throws BadOption where the file's name holds such a place.
+void refuse_frame_place(std::string_view option, const std::string& name);
 
-/// For names of several frames. Throws UsageError where the name holds none.
-void require_frame_place(std::string_view flag, const std::string& name);
+/// For names of several frames. Throws BadOption where the name holds none.
+void require_frame_place(std::string_view option, const std::string& name);
 
 /// The name with the number in its places.
 std::string name_of_frame(std::string_view name, int frame);

@@ -12,29 +12,29 @@ namespace {
 
 constexpr RealRange kFactor{0.0, 1e30};
 
-scene::LightAdjustment read_light(const std::string& flag, const std::string& text) {
+scene::LightAdjustment read_light(const std::string& option, const std::string& text) {
   // Names may contain '='; values do not.
   const std::size_t equals = text.rfind('=');
   if (equals == std::string::npos || equals == 0)
-    throw BadOption(fmt::format("{}: '{}' is not NAME=off, NAME=X or NAME=r,g,b", flag, text));
+    throw BadOption({option, text, "", "NAME=off, NAME=X or NAME=r,g,b"});
   const std::string value = text.substr(equals + 1);
   scene::LightAdjustment light{.name = text.substr(0, equals)};
   if (value == "off") {
     light.factor = Color::Zero();
   } else if (value.find(',') != std::string::npos) {
-    const std::array<float, 3> rgb = parse_triple(flag, value, kFactor);
+    const std::array<float, 3> rgb = parse_triple(option, value, kFactor);
     light.factor = {rgb[0], rgb[1], rgb[2]};
   } else {
-    light.factor = Color::Constant(parse_float(flag, value, kFactor));
+    light.factor = Color::Constant(parse_float(option, value, kFactor));
   }
   return light;
 }
 
 }  // namespace
 
-std::vector<scene::LightAdjustment> read_lights(const std::string& flag, const std::string& text) {
+std::vector<scene::LightAdjustment> read_lights(const std::string& option, const std::string& text) {
   std::vector<scene::LightAdjustment> lights;
-  for (const std::string& part : split(text, ';')) lights.push_back(read_light(flag, part));
+  for (const std::string& part : split(text, ';')) lights.push_back(read_light(option, part));
   return lights;
 }
 
@@ -51,12 +51,12 @@ std::string text_of(const std::vector<scene::LightAdjustment>& lights) {
   return text;
 }
 
-std::vector<scene::LightProfile> read_profiles(const std::string& flag, const std::string& text) {
+std::vector<scene::LightProfile> read_profiles(const std::string& option, const std::string& text) {
   std::vector<scene::LightProfile> profiles;
   for (const std::string& part : split(text, ';')) {
     const std::size_t equals = part.find('=');
     if (equals == std::string::npos || equals == 0 || equals + 1 == part.size())
-      throw BadOption(fmt::format("{}: '{}' is not NAME=FILE", flag, part));
+      throw BadOption({option, part, "", "NAME=FILE"});
     profiles.push_back({part.substr(0, equals), part.substr(equals + 1)});
   }
   return profiles;
@@ -74,8 +74,7 @@ std::vector<renderer::LightGroup> read_light_groups(const std::string& text) {
   std::vector<renderer::LightGroup> groups;
   for (const std::string& part : split(text, ';')) {
     const std::size_t equals = part.find('=');  // names of groups have none
-    if (equals == std::string::npos)
-      renderer::refuse_light_groups(fmt::format("'{}' is not NAME=LIGHT,LIGHT", part));
+    if (equals == std::string::npos) throw BadOption({"light-groups", part, "", "NAME=LIGHT,LIGHT"});
     groups.push_back({part.substr(0, equals), split(part.substr(equals + 1), ',')});
   }
   renderer::check_light_groups(groups);

@@ -10,14 +10,14 @@
 
 namespace gatelight::apps {
 
-/// Reads "NAME=off;NAME=X;NAME=r,g,b". Throws BadOption that names the flag, the part and what was
+/// Reads "NAME=off;NAME=X;NAME=r,g,b". Throws BadOption that names the option, the part and what was
 /// expected.
-std::vector<scene::LightAdjustment> read_lights(const std::string& flag, const std::string& text);
+std::vector<scene::LightAdjustment> read_lights(const std::string& option, const std::string& text);
 /// Returns the text that read_lights() reads.
 std::string text_of(const std::vector<scene::LightAdjustment>& lights);
 
 /// Reads "NAME=FILE;NAME=FILE", with the same exceptions.
-std::vector<scene::LightProfile> read_profiles(const std::string& flag, const std::string& text);
+std::vector<scene::LightProfile> read_profiles(const std::string& option, const std::string& text);
 std::string text_of(const std::vector<scene::LightProfile>& profiles);
 
 /// Reads "NAME=LIGHT,LIGHT;NAME=LIGHT", or "none", with the same exceptions.

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "apps/settings/parsing.h"
+#include "renderer/image/image_format.h"
 #include "renderer/settings/options.h"
 
 namespace gatelight::apps {
@@ -35,14 +36,15 @@ enum class InRecipe : std::uint8_t { always, unless_reproducible, never };
 /// A condition without which an option has no effect. The option is then refused, and left out of recipes.
 struct Requirement {
   bool (*met)(const RenderOptions&);
-  const char* expected;  ///< "--encoding gate"
+  const char* expected;  ///< "`encoding` gate"
 };
 
-/// The values that the cells of a sweep can have for an option.
-enum class SweepUse : std::uint8_t {
-  axis,   ///< a value each
-  scene,  ///< one value for all: it decides which scene is loaded
-  none,   ///< none: files, the progress of one picture, limits that end it early
+/// Where an option is used.
+enum class OptionStage : std::uint8_t {
+  load,     ///< decides which scene is loaded: the cells of a sweep have one value for all
+  render,   ///< decides the picture
+  output,   ///< decides how a finished picture is shown and written
+  program,  ///< of the program's call, which the Python module does not have
 };
 
 struct Option {
@@ -67,8 +69,16 @@ struct Option {
   bool of_cache = false;  ///< has no effect without a cache
   bool common = false;    ///< the short help has it
   bool of_view = false;   ///< a member of --view-file
-  SweepUse in_sweep = SweepUse::axis;
   std::vector<Requirement> needs;
+
+  // Where else it is used.
+  OptionStage stage = OptionStage::render;
+  bool in_sweep = true;     ///< false: files, the progress of one picture, limits that end it early
+  bool in_window = false;   ///< a window changes it while it is open
+  bool of_field = false;    ///< a cache without light transport (gatelight.Cache of Python) has it
+  bool of_denoise = false;  ///< it finishes a picture that is there already
+  std::vector<std::string> excludes{};           ///< options that it replaces
+  std::vector<renderer::ImageFormat> formats{};  ///< files that it changes; empty: all
 
   // In files.
   InRecipe in_recipe = InRecipe::always;
@@ -106,16 +116,39 @@ inline Option common(Option option) {
   option.common = true;
   return option;
 }
+inline Option in_window(Option option) {
+  option.in_window = true;
+  return option;
+}
+/// Windows change the view too.
 inline Option of_view(Option option) {
-  option.of_view = true;
+  option.of_view = option.in_window = true;
   return option;
 }
 inline Option not_in_sweep(Option option) {
-  option.in_sweep = SweepUse::none;
+  option.in_sweep = false;
   return option;
 }
-inline Option of_scene(Option option) {
-  option.in_sweep = SweepUse::scene;
+inline Option of_field(Option option) {
+  option.of_field = true;
+  return option;
+}
+inline Option of_denoise(Option option) {
+  option.of_denoise = true;
+  return option;
+}
+inline Option of_program(Option option) {
+  option.stage = OptionStage::program;
+  option.in_sweep = false;
+  option.in_recipe = InRecipe::never;
+  return option;
+}
+inline Option excluding(std::vector<std::string> others, Option option) {
+  option.excludes = std::move(others);
+  return option;
+}
+inline Option of_formats(std::vector<renderer::ImageFormat> formats, Option option) {
+  option.formats = std::move(formats);
   return option;
 }
 
@@ -134,21 +167,21 @@ template <class Number>
 using RangeOf = std::conditional_t<std::is_floating_point_v<Number>, RealRange, IntegerRange>;
 
 template <class Number>
-Number parse_number(const std::string& flag, const std::string& text, const RangeOf<Number>& range) {
+Number parse_number(const std::string& name, const std::string& text, const RangeOf<Number>& range) {
   if constexpr (std::is_same_v<Number, float>) {
-    return parse_float(flag, text, range);
+    return parse_float(name, text, range);
   } else if constexpr (std::is_floating_point_v<Number>) {
-    return parse_real(flag, text, range);
+    return parse_real(name, text, range);
   } else {
-    return static_cast<Number>(parse_integer(flag, text, range));
+    return static_cast<Number>(parse_integer(name, text, range));
   }
 }
 
 template <class Number>
 Option number(const std::string& name, Number& member, const RangeOf<Number>& range, const char* unit,
               const char* help) {
-  const auto read = [&member, range, flag = "--" + name](const std::string& text) {
-    member = parse_number<Number>(flag, text, range);
+  const auto read = [&member, range, name](const std::string& text) {
+    member = parse_number<Number>(name, text, range);
   };
   return {.name = name, .unit = unit, .help = help, .value = [&] { return value_of(member); }, .read = read};
 }
@@ -162,9 +195,9 @@ Option number_or(const std::string& none, const std::string& name, std::optional
     if (member) return value_of(*member);
     return none.empty() ? OptionValue() : none;
   };
-  const auto read = [&member, range, none, flag = "--" + name](const std::string& text) {
+  const auto read = [&member, range, none, name](const std::string& text) {
     member.reset();
-    if (none.empty() || text != none) member = parse_number<Number>(flag, text, range);
+    if (none.empty() || text != none) member = parse_number<Number>(name, text, range);
   };
   return {.name = name,
           .unit = none.empty() ? unit : unit + "|" + none,
@@ -180,8 +213,8 @@ Option choice(const std::string& name, Member& member, const Table& table, const
     if constexpr (std::is_integral_v<Member> && !std::is_same_v<Member, bool>) return value_of(member);
     return name_of(table, member);
   };
-  const auto read = [&member, table, flag = "--" + name](const std::string& text) {
-    member = parse_choice(flag, text, table);
+  const auto read = [&member, table, name](const std::string& text) {
+    member = parse_choice(name, text, table);
   };
   return {.name = name, .unit = choice_names(table), .help = help, .value = value, .read = read};
 }

@@ -35,18 +35,19 @@ constexpr Choice<ProgressMode> kProgressModes[] = {{"auto", ProgressMode::automa
 /// Options of the call, which do not change its results.
 void add_call_options(OptionGroup& group, RenderSettings& settings) {
   auto& [scene, outputs, render, load, frames, image, exposure, eye, target, up, view_file, config, stats,
-         skip_existing, progress, reproducible, quiet, verbose, preset, given] = settings;
-  const auto add = [&](Option option) { group.add(in_recipe(std::move(option), InRecipe::never)); };
-  add(not_in_sweep(toggle("skip-existing", skip_existing,
-                          "Leave out frames, and cameras, whose pictures are there already")));
-  add(not_in_sweep(toggle(
+         live, skip_existing, progress, reproducible, quiet, verbose, preset, given] = settings;
+  const auto add = [&](Option option) {
+    group.add(in_recipe(not_in_sweep(std::move(option)), InRecipe::never));
+  };
+  add(of_program(toggle("skip-existing", skip_existing,
+                        "Leave out frames, and cameras, whose pictures are there already")));
+  add(toggle(
       "reproducible", reproducible,
-      "Leave times, threads and the command line out of the EXR header: equal renders give equal files")));
-  add(common(not_in_sweep(any_word("stats", stats, "FILE|-", "Statistics as JSON; - is stdout"))));
+      "Leave times, threads and the command line out of the EXR header: equal renders give equal files"));
+  add(common(any_word("stats", stats, "FILE|-", "Statistics as JSON; - is stdout")));
   add(progress_option(progress));
-  add(common(not_in_sweep(toggle("quiet", quiet, "Print errors only"))));
-  add(not_in_sweep(
-      toggle("verbose", verbose, "Print more: what was loaded, the memory needed, all options")));
+  add(common(toggle("quiet", quiet, "Print errors only")));
+  add(toggle("verbose", verbose, "Print more: what was loaded, the memory needed, all options"));
 }
 
 /// A part of the view of --eye. Recipes have the complete view.
@@ -57,8 +58,8 @@ Option by_hand(const char* name, std::optional<std::array<float, 3>>& member,
     const Vec3& v = (*camera.look_at).*part;
     return std::vector<float>{v.x(), v.y(), v.z()};
   };
-  const auto read = [&member, flag = std::string("--") + name](const std::string& text) {
-    member = parse_triple(flag, text, kAnyFloat);
+  const auto read = [&member, name](const std::string& text) {
+    member = parse_triple(name, text, kAnyFloat);
   };
   return {.name = name, .unit = "x,y,z", .help = help, .value = value, .read = read};
 }
@@ -67,32 +68,34 @@ void add_load_options(OptionGroup& group, scene::LoadOptions& load) {
   // All transforms are baked; --shutter and --threads of the picture set the other two.
   [[maybe_unused]] auto& [scene, variant, time, shutter, animation, missing_is_error, allow_external, ignored,
                           show_hidden, back_faces, lights, profiles, bake_transforms, threads] = load;
-  group.add(of_scene(number("scene-index", scene, kScenes, "N", "Which scene of the file; -1: its default")));
-  group.add(common(of_scene(any_word("variant", variant, "NAME", "Material variant of the file, by name"))))
-      .value = [&load] { return load.variant; };
-  group.add(common(of_scene(number_or("", "time", time, kSeconds, "SECONDS",
-                                      "Moment of the file's animations; else the pose of its nodes"))));
-  group.add(of_scene(any_word("animation", animation, "NAME|INDEX|none",
-                              "Animation that --time shows; else all of the file together, but of those that "
-                              "animate the same value only the first")));
-  group.add(
-      of_scene(toggle("show-hidden", show_hidden, "Show nodes that the file hides (KHR_node_visibility)")));
-  group.add(of_scene(choice(
+  const auto add = [&](Option option) -> Option& {
+    option.stage = OptionStage::load;
+    return group.add(std::move(option));
+  };
+  add(number("scene-index", scene, kScenes, "N", "Which scene of the file; -1: its default"));
+  add(common(any_word("variant", variant, "NAME", "Material variant of the file, by name"))).value = [&load] {
+    return load.variant;
+  };
+  add(common(in_window(number_or("", "time", time, kSeconds, "SECONDS",
+                                 "Moment of the file's animations; else the pose of its nodes"))));
+  add(in_window(any_word("animation", animation, "NAME|INDEX|none",
+                         "Animation that --time shows; else all of the file together, but of those that "
+                         "animate the same value only the first")));
+  add(toggle("show-hidden", show_hidden, "Show nodes that the file hides (KHR_node_visibility)"));
+  add(choice(
       "backfaces", back_faces, kBackFaces,
       "Back faces of materials that are not doubleSided: reflect but do not emit (show), let rays pass as "
-      "glTF wants it (cull), or emit too (light); files with walls of one side would lose them by culling")));
-  group.add(
-      {.name = "lights",
+      "glTF wants it (cull), or emit too (light); files with walls of one side would lose them by culling"));
+  add({.name = "lights",
        .unit = "NAME=off|X|r,g,b;...",
        .help = "Lights and emissive materials of the file, by name, switched off or multiplied; a '*' at the "
                "end of a name fits any ending, and the last that fits a light counts: \"*=off;lamp=2\"",
        .value = [&chosen = lights]() -> OptionValue {
          return chosen.empty() ? OptionValue() : text_of(chosen);
        },
-       .read = [&chosen = lights](const std::string& text) { chosen = read_lights("--lights", text); },
-       .in_sweep = SweepUse::scene});
-  group.add(
-      {.name = "ies",
+       .read = [&chosen = lights](const std::string& text) { chosen = read_lights("lights", text); },
+       .in_window = true});
+  add({.name = "ies",
        .unit = "NAME=FILE;...",
        .help =
            "Profiles of IES files (LM-63, type C) for point and spot lights of the file, by name as in "
@@ -101,12 +104,10 @@ void add_load_options(OptionGroup& group, scene::LoadOptions& load) {
        .value = [&chosen = profiles]() -> OptionValue {
          return chosen.empty() ? OptionValue() : text_of(chosen);
        },
-       .read = [&chosen = profiles](const std::string& text) { chosen = read_profiles("--ies", text); },
-       .in_sweep = SweepUse::scene});
-  group.add(of_scene(choice("missing", missing_is_error, kMissing, "When a texture cannot be read")));
-  group.add(external_option(allow_external));
-  group.add(
-      {.name = "ignore-required",
+       .read = [&chosen = profiles](const std::string& text) { chosen = read_profiles("ies", text); }});
+  add(choice("missing", missing_is_error, kMissing, "When a texture cannot be read"));
+  add(external_option(allow_external));
+  add({.name = "ignore-required",
        .unit = "NAME,...",
        .help =
            "Extensions of glTF that the file may require although they are not supported: they are left out",
@@ -114,8 +115,7 @@ void add_load_options(OptionGroup& group, scene::LoadOptions& load) {
          return chosen.empty() ? OptionValue() : fmt::format("{}", fmt::join(chosen, ","));
        },
        .read = [&chosen =
-                    ignored](const std::string& text) { chosen = split_list("--ignore-required", text); },
-       .in_sweep = SweepUse::scene});
+                    ignored](const std::string& text) { chosen = split_list("ignore-required", text); }});
 }
 
 void add_frame_options(OptionGroup& group, FrameSettings& frames) {
@@ -132,12 +132,12 @@ void add_frame_options(OptionGroup& group, FrameSettings& frames) {
        .unit = "A:B[:STEP]",
        .help = "Frames, or a list as 1,3,5-9, each to its own file: -o frame-%04d.exr, #### or {frame}",
        .value = [&chosen = range]() -> OptionValue { return text_of(*chosen); },
-       .read = [&chosen = range](const std::string& text) { chosen = parse_frames("--frames", text); }}));
+       .read = [&chosen = range](const std::string& text) { chosen = parse_frames("frames", text); }}));
   add({.name = "fps",
        .unit = "N",
        .help = "Frames of a second: frame n shows the time n / N; also 30000/1001",
        .value = [&chosen = fps]() -> OptionValue { return chosen; },
-       .read = [&chosen = fps](const std::string& text) { chosen = parse_fps("--fps", text); }});
+       .read = [&chosen = fps](const std::string& text) { chosen = parse_fps("fps", text); }});
   add(number("turntable", turntable, kTurns, "N",
              "The camera goes around what it looks at, once in N frames; alone it renders these"));
   group.add(not_in_sweep(
@@ -148,16 +148,15 @@ void add_frame_options(OptionGroup& group, FrameSettings& frames) {
        .value = [&chosen = shutter]() -> OptionValue {
          return chosen.is_open() ? text_of(chosen) : OptionValue();
        },
-       .read = [&chosen = shutter](const std::string& text) { chosen = parse_shutter("--shutter", text); }}));
-  group.add(in_recipe(not_in_sweep(number("frame-groups", groups, kGroups, "N",
-                                          "Groups of the ranks of gatelight-mpi: each renders every N-th "
-                                          "frame; only where frames do not depend on each other")),
-                      InRecipe::never));
+       .read = [&chosen = shutter](const std::string& text) { chosen = parse_shutter("shutter", text); }}));
+  group.add(of_program(number("frame-groups", groups, kGroups, "N",
+                              "Groups of the ranks of gatelight-mpi: each renders every N-th "
+                              "frame; only where frames do not depend on each other")));
 }
 
 Option preset_option(std::optional<CachePreset>& preset) {
   const auto read = [&preset](const std::string& text) {
-    preset = parse_choice("--preset", text, kEnumNames<CachePreset>);
+    preset = parse_choice("preset", text, kEnumNames<CachePreset>);
   };
   return {
       .name = "preset",
@@ -187,18 +186,27 @@ void add_picture_files(OptionGroup& group, std::vector<std::string>& outputs,
   output.letter = "-o";
   output.required = true;
   output.in_recipe = InRecipe::unless_reproducible;
-  group.add(not_in_sweep(choice("exr", exr_float, kExr, "Precision of colours in EXR files")));
-  group.add(common(number_or(
-      "auto", "exposure", stops, kStops, "EV",
-      "Stops by which displayed pictures (PNG, JPEG, TIFF) are brighter; auto, that of presets of radiance: "
-      "by the picture's own light, printed at the end")));
-  group.add(not_in_sweep(number("white-balance", white_balance, kKelvin, "KELVIN",
-                                "Colour of light that displayed pictures show as white")));
-  group.add(common(
-      choice("tonemap", tonemap, "Curve of displayed pictures; the presets of finished pictures have agx")));
-  group.add(not_in_sweep(choice("bits", bits, kBits, "Bits of a channel in PNG and TIFF files")));
+  const auto add = [&](Option option) -> Option& {
+    option.stage = OptionStage::output;
+    return group.add(std::move(option));
+  };
+  const std::vector<ImageFormat> shown = {ImageFormat::png, ImageFormat::jpeg, ImageFormat::tiff};
+  add(not_in_sweep(
+      of_formats({ImageFormat::exr}, choice("exr", exr_float, kExr, "Precision of colours in EXR files"))));
+  add(common(in_window(of_formats(shown, number_or("auto", "exposure", stops, kStops, "EV",
+                                                   "Stops by which displayed pictures (PNG, JPEG, TIFF) are "
+                                                   "brighter; auto, that of presets of radiance: "
+                                                   "by the picture's own light, printed at the end")))));
+  add(not_in_sweep(
+      in_window(of_formats(shown, number("white-balance", white_balance, kKelvin, "KELVIN",
+                                         "Colour of light that displayed pictures show as white")))));
+  add(common(in_window(
+      of_formats(shown, choice("tonemap", tonemap,
+                               "Curve of displayed pictures; the presets of finished pictures have agx")))));
+  add(not_in_sweep(of_formats({ImageFormat::png, ImageFormat::tiff},
+                              choice("bits", bits, kBits, "Bits of a channel in PNG and TIFF files"))));
   const auto add_ocio = [&](const char* name, std::string& member, const char* unit, const char* help) {
-    group.add(not_in_sweep(any_word(name, member, unit, help))).value = [&] {
+    add(not_in_sweep(of_formats(shown, any_word(name, member, unit, help)))).value = [&] {
       return member.empty() ? OptionValue() : member;
     };
   };
@@ -245,12 +253,13 @@ std::vector<Option> option_table(RenderSettings& settings) {
     }
     if (name != "camera") continue;
     const auto& camera = render.camera;
-    view.add(common(
-        of_view(by_hand("eye", eye, camera, &LookAt::eye, "Camera position, in metres (with --target)"))));
-    view.add(common(of_view(
-        by_hand("target", target, camera, &LookAt::target, "Point that the camera looks at, in metres"))));
-    view.add(of_view(by_hand("up", up, camera, &LookAt::up, "Up direction with --eye"))).default_text =
-        "0,1,0";
+    view.add(common(of_view(excluding({"camera"}, by_hand("eye", eye, camera, &LookAt::eye,
+                                                          "Camera position, in metres (with --target)")))));
+    view.add(common(of_view(excluding({"camera"}, by_hand("target", target, camera, &LookAt::target,
+                                                          "Point that the camera looks at, in metres")))));
+    view.add(
+            of_view(excluding({"camera"}, by_hand("up", up, camera, &LookAt::up, "Up direction with --eye"))))
+        .default_text = "0,1,0";
     view.add(any_word(
                  "view-file", view_file, "FILE",
                  "JSON object with the view: camera, eye, target, up, fov, lens, projection, view-height, "
@@ -258,6 +267,15 @@ std::vector<Option> option_table(RenderSettings& settings) {
         .in_recipe = InRecipe::never;
   }
   return table;
+}
+
+std::set<std::string> option_names(const std::function<bool(const Option&)>& fits) {
+  RenderSettings settings;
+  std::set<std::string> names;
+  for (const Option& option : option_table(settings)) {
+    if (!option.positional && fits(option)) names.insert(option.name);
+  }
+  return names;
 }
 
 std::vector<Option> cache_report_table(RenderSettings& settings) {

@@ -1,7 +1,9 @@
 #pragma once
 // All options of `render`: those of the picture and those of the application.
 
+#include <functional>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -12,6 +14,9 @@ namespace gatelight::apps {
 
 /// In the order of the help, bound to the members of `settings`, which must outlive them.
 std::vector<Option> option_table(RenderSettings& settings);
+
+/// The names of those that `fits` accepts, without SCENE.
+std::set<std::string> option_names(const std::function<bool(const Option&)>& fits);
 
 /// The options that decide the cache of a scene, for `info`; without SCENE.
 std::vector<Option> cache_report_table(RenderSettings& settings);

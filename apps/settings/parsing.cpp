@@ -14,8 +14,8 @@
 namespace gatelight::apps {
 namespace {
 
-[[noreturn]] void refuse(const std::string& flag, const std::string& text, const std::string& expected) {
-  throw BadOption(fmt::format("{}: '{}' is not {}", flag, text, expected));
+[[noreturn]] void refuse(const std::string& option, const std::string& text, const std::string& expected) {
+  throw BadOption({option, text, "", expected});
 }
 
 bool inside(double value, const RealRange& range) {
@@ -66,48 +66,50 @@ std::optional<std::array<Number, size>> read_numbers(std::string_view text, char
 
 }  // namespace
 
-std::int64_t parse_integer(const std::string& flag, const std::string& text, const IntegerRange& range) {
+std::int64_t parse_integer(const std::string& option, const std::string& text, const IntegerRange& range) {
   const std::optional<std::int64_t> value = to_number<std::int64_t>(text);
-  if (!value || *value < range.min || *value > range.max) refuse(flag, text, describe(range));
+  if (!value || *value < range.min || *value > range.max) refuse(option, text, describe(range));
   return *value;
 }
 
-double parse_real(const std::string& flag, const std::string& text, const RealRange& range) {
+double parse_real(const std::string& option, const std::string& text, const RealRange& range) {
   const std::optional<double> value = to_number<double>(text);
-  if (!value || !inside(*value, range)) refuse(flag, text, describe(range));
+  if (!value || !inside(*value, range)) refuse(option, text, describe(range));
   return *value;
 }
 
-float parse_float(const std::string& flag, const std::string& text, const RealRange& range) {
-  const double value = parse_real(flag, text, range);
+float parse_float(const std::string& option, const std::string& text, const RealRange& range) {
+  const double value = parse_real(option, text, range);
   const float rounded = static_cast<float>(value);
-  if (!inside(static_cast<double>(rounded), range)) refuse(flag, text, describe(range));
+  if (!inside(static_cast<double>(rounded), range)) refuse(option, text, describe(range));
   if (vanishes(value)) {
-    refuse(flag, text, fmt::format("a number of single precision: 0, or of at least {:.3g}", kLeastFloat));
+    refuse(option, text, fmt::format("a number of single precision: 0, or of at least {:.3g}", kLeastFloat));
   }
   return rounded;
 }
 
-std::array<float, 3> parse_triple(const std::string& flag, const std::string& text, const RealRange& range) {
+std::array<float, 3> parse_triple(const std::string& option, const std::string& text,
+                                  const RealRange& range) {
   const auto values = read_numbers<double, 3>(text, ',');
   if (!values || !std::all_of(values->begin(), values->end(), [&](double x) { return inside(x, range); }))
-    refuse(flag, text, fmt::format("three numbers a,b,c, each {}", describe(range)));
+    refuse(option, text, fmt::format("three numbers a,b,c, each {}", describe(range)));
   const auto& [a, b, c] = *values;
   return {static_cast<float>(a), static_cast<float>(b), static_cast<float>(c)};
 }
 
-std::array<int, 2> parse_size(const std::string& flag, const std::string& text) {
+std::array<int, 2> parse_size(const std::string& option, const std::string& text) {
   const auto size = read_numbers<int, 2>(text, 'x');
   if (!size || !std::all_of(size->begin(), size->end(), [](int n) { return n >= 1 && n <= 65536; }))
-    refuse(flag, text, "a size WxH in pixels, each from 1 to 65536, such as 960x540");
+    refuse(option, text, "a size WxH in pixels, each from 1 to 65536, such as 960x540");
   return *size;
 }
 
-std::array<int, 4> parse_region(const std::string& flag, const std::string& text) {
+std::array<int, 4> parse_region(const std::string& option, const std::string& text) {
   const auto region = read_numbers<int, 4>(text, ',').value_or(std::array<int, 4>{});
   const auto& [x0, y0, x1, y1] = region;
   if (x0 < 0 || y0 < 0 || x0 >= x1 || y0 >= y1) {
-    refuse(flag, text, "a region x0,y0,x1,y1 in pixels with 0 <= x0 < x1 and 0 <= y0 < y1 (x1, y1 excluded)");
+    refuse(option, text,
+           "a region x0,y0,x1,y1 in pixels with 0 <= x0 < x1 and 0 <= y0 < y1 (x1, y1 excluded)");
   }
   return region;
 }
@@ -122,10 +124,10 @@ std::vector<std::string> split(std::string_view text, char separator) {
   }
 }
 
-std::vector<std::string> split_list(const std::string& flag, const std::string& text) {
+std::vector<std::string> split_list(const std::string& option, const std::string& text) {
   std::vector<std::string> words = split(text, ',');
   for (const std::string& word : words) {
-    if (word.empty()) refuse(flag, text, "a list of words separated by commas");
+    if (word.empty()) refuse(option, text, "a list of words separated by commas");
   }
   return words;
 }
@@ -138,8 +140,8 @@ std::string join_names(std::span<const std::string_view> names) {
   return fmt::format("{}", fmt::join(names.begin(), names.end(), "|"));
 }
 
-void refuse_choice(const std::string& flag, const std::string& text, const std::string& names) {
-  refuse(flag, text, "one of " + names + did_you_mean(text, split(names, '|')));
+void refuse_choice(const std::string& option, const std::string& text, const std::string& names) {
+  throw BadOption({option, text, "", "one of " + names, did_you_mean(text, split(names, '|'))});
 }
 
 }  // namespace gatelight::apps

@@ -1,6 +1,6 @@
 #pragma once
-// Parses values of the command line and of files. Each function throws BadOption, whose message names the
-// flag, the text and what was expected.
+// Parses values of the command line and of files. Each function throws BadOption, whose parts are
+// the option, the text and what was expected.
 
 #include <array>
 #include <cstdint>
@@ -32,26 +32,26 @@ struct RealRange {
 inline constexpr RealRange kAnyFloat{-3.4e38, 3.4e38};
 inline constexpr RealRange kPositive{.min = 0.0, .max = 3.4e38, .excludes_min = true};
 
-std::int64_t parse_integer(const std::string& flag, const std::string& text, const IntegerRange& range);
-double parse_real(const std::string& flag, const std::string& text, const RealRange& range);
+std::int64_t parse_integer(const std::string& option, const std::string& text, const IntegerRange& range);
+double parse_real(const std::string& option, const std::string& text, const RealRange& range);
 /// The value rounded to single precision must be in the range too, and must not vanish.
-float parse_float(const std::string& flag, const std::string& text, const RealRange& range);
-std::array<float, 3> parse_triple(const std::string& flag, const std::string& text, const RealRange& range);
+float parse_float(const std::string& option, const std::string& text, const RealRange& range);
+std::array<float, 3> parse_triple(const std::string& option, const std::string& text, const RealRange& range);
 /// "WxH", each from 1 to 65536.
-std::array<int, 2> parse_size(const std::string& flag, const std::string& text);
+std::array<int, 2> parse_size(const std::string& option, const std::string& text);
 /// "x0,y0,x1,y1", with x0 < x1 and y0 < y1.
-std::array<int, 4> parse_region(const std::string& flag, const std::string& text);
+std::array<int, 4> parse_region(const std::string& option, const std::string& text);
 
 /// The parts between the separators: one more than there are separators.
 std::vector<std::string> split(std::string_view text, char separator);
 /// "a,b,c". Empty words are refused.
-std::vector<std::string> split_list(const std::string& flag, const std::string& text);
+std::vector<std::string> split_list(const std::string& option, const std::string& text);
 
 /// Whether the text is three numbers rather than the name of a file.
 bool looks_like_triple(const std::string& text);
 
 std::string join_names(std::span<const std::string_view> names);
-[[noreturn]] void refuse_choice(const std::string& flag, const std::string& text, const std::string& names);
+[[noreturn]] void refuse_choice(const std::string& option, const std::string& text, const std::string& names);
 
 template <typename Table>
 std::string choice_names(const Table& table) {
@@ -61,11 +61,11 @@ std::string choice_names(const Table& table) {
 }
 
 template <typename Table>
-auto parse_choice(const std::string& flag, const std::string& text, const Table& table) {
+auto parse_choice(const std::string& option, const std::string& text, const Table& table) {
   for (const auto& choice : table) {
     if (choice.name == text) return choice.value;
   }
-  refuse_choice(flag, text, choice_names(table));
+  refuse_choice(option, text, choice_names(table));
 }
 
 }  // namespace gatelight::apps

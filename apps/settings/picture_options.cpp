@@ -27,14 +27,14 @@ constexpr Choice<int> kSupersampling[] = {{"1", 1}, {"2", 2}};
 
 /// Values by a list of names, each once, in the order of the enumeration. `all`: a name for all of them.
 template <class Enumeration>
-std::vector<Enumeration> read_words(const std::string& flag, const std::string& text,
+std::vector<Enumeration> read_words(const std::string& option, const std::string& text,
                                     std::string_view all = "") {
   std::vector<Enumeration> values;
-  for (const std::string& word : split_list(flag, text)) {
+  for (const std::string& word : split_list(option, text)) {
     if (word == all) {
       for (const Choice<Enumeration>& choice : kEnumNames<Enumeration>) values.push_back(choice.value);
     } else {
-      values.push_back(parse_choice(flag, word, kEnumNames<Enumeration>));
+      values.push_back(parse_choice(option, word, kEnumNames<Enumeration>));
     }
   }
   std::sort(values.begin(), values.end());
@@ -72,7 +72,7 @@ void add_checkpoint_options(std::vector<Option>& table, CheckpointOptions& check
 Option size_option(int& width, int& height) {
   const auto value = [&]() -> OptionValue { return std::vector<int>{width, height}; };
   const auto read = [&](const std::string& text) {
-    const std::array<int, 2> size = parse_size("--size", text);
+    const std::array<int, 2> size = parse_size("size", text);
     width = size[0];
     height = size[1];
   };
@@ -82,7 +82,8 @@ Option size_option(int& width, int& height) {
           .value = value,
           .read = read,
           .write = [&] { return fmt::format("{}x{}", width, height); },
-          .common = true};
+          .common = true,
+          .in_window = true};
 }
 
 Option region_option(std::optional<std::array<int, 4>>& region) {
@@ -93,7 +94,7 @@ Option region_option(std::optional<std::array<int, 4>>& region) {
           .unit = "x0,y0,x1,y1",
           .help = "Render this part only, in pixels; x1 and y1 are excluded",
           .value = value,
-          .read = [&](const std::string& text) { region = parse_region("--region", text); }};
+          .read = [&](const std::string& text) { region = parse_region("region", text); }};
 }
 
 Option aov_option(std::vector<Aov>& aovs) {
@@ -108,9 +109,10 @@ Option aov_option(std::vector<Aov>& aovs) {
           .help = help,
           .names = choice_names(kEnumNames<Aov>) + "|all",
           .value = [&] { return words_of(aovs); },
-          .read = [&](const std::string& text) { aovs = read_words<Aov>("--aov", text, "all"); },
+          .read = [&](const std::string& text) { aovs = read_words<Aov>("aov", text, "all"); },
           .common = true,
-          .in_sweep = SweepUse::none};
+          .in_sweep = false,
+          .formats = {ImageFormat::exr}};
 }
 
 Option cryptomatte_option(std::vector<MatteKind>& kinds) {
@@ -122,8 +124,9 @@ Option cryptomatte_option(std::vector<MatteKind>& kinds) {
               "themselves",
           .names = choice_names(kEnumNames<MatteKind>),
           .value = [&]() -> OptionValue { return kinds.empty() ? OptionValue() : words_of(kinds); },
-          .read = [&](const std::string& text) { kinds = read_words<MatteKind>("--cryptomatte", text); },
-          .in_sweep = SweepUse::none};
+          .read = [&](const std::string& text) { kinds = read_words<MatteKind>("cryptomatte", text); },
+          .in_sweep = false,
+          .formats = {ImageFormat::exr}};
 }
 
 Option light_groups_option(std::vector<LightGroup>& groups) {
@@ -135,7 +138,8 @@ Option light_groups_option(std::vector<LightGroup>& groups) {
               "environment; 'rest' is that of all others; with --integrator path: "
               "\"key=Sun,Lamp*;sky=environment\"",
           .value = [&]() -> OptionValue { return groups.empty() ? OptionValue() : text_of(groups); },
-          .read = [&](const std::string& text) { groups = read_light_groups(text); }};
+          .read = [&](const std::string& text) { groups = read_light_groups(text); },
+          .formats = {ImageFormat::exr}};
 }
 
 Option integrator_option(Integrator& integrator, bool& choose) {
@@ -149,7 +153,7 @@ Option integrator_option(Integrator& integrator, bool& choose) {
     const auto& known = kEnumNames<Integrator>;
     const auto chosen =
         std::find_if(std::begin(known), std::end(known), [&](const auto& name) { return name.name == text; });
-    if (chosen == std::end(known)) refuse_choice("--integrator", text, names);
+    if (chosen == std::end(known)) refuse_choice("integrator", text, names);
     integrator = chosen->value;
   };
   return {.name = "integrator",
@@ -165,14 +169,14 @@ Option integrator_option(Integrator& integrator, bool& choose) {
 
 constexpr Requirement kDenoiser{
     [](const RenderOptions& o) { return o.denoise.denoiser != DenoiserKind::none; },
-    "--denoiser oidn or auto",
+    "`denoiser` oidn or auto",
 };
 
 constexpr Requirement kDenoiserOrLayers{
     [](const RenderOptions& o) {
       return o.denoise.denoiser != DenoiserKind::none || has(o.aovs, Aov::denoising);
     },
-    "--denoiser oidn or auto, or --aov denoising",
+    "`denoiser` oidn or auto, or `aov` denoising",
 };
 
 void add_denoise_options(OptionGroup& picture, DenoiseOptions& options) {
@@ -181,10 +185,11 @@ void add_denoise_options(OptionGroup& picture, DenoiseOptions& options) {
                             "Denoises the finished picture: Open Image Denoise (oidn), the same where it "
                             "is found (auto, that of the presets), or nothing")));
   picture.add(
-      choice("prefilter", prefilter,
-             "Albedo and normal before they guide the denoiser: denoised themselves (accurate); read as they "
-             "are, for half the time (none): their noise shows in glass and behind lenses; or read by a "
-             "smaller network that expects noise in them, for a third of the time (fast)"),
+      of_denoise(choice(
+          "prefilter", prefilter,
+          "Albedo and normal before they guide the denoiser: denoised themselves (accurate); read as they "
+          "are, for half the time (none): their noise shows in glass and behind lenses; or read by a "
+          "smaller network that expects noise in them, for a third of the time (fast)")),
       {kDenoiserOrLayers});
   picture.add(choice("supersampling", supersampling, kSupersampling,
                      "Render and denoise at this many times the width and height, with the same number of "
@@ -196,31 +201,33 @@ void add_denoise_options(OptionGroup& picture, DenoiseOptions& options) {
                           "Frames take over samples of earlier frames where they show the same surface "
                           "in the same light, before the denoiser")),
       {kDenoiser});
-  picture.add(in_recipe(any_word("oidn", library, "FILE|FOLDER",
-                                 "Open Image Denoise 2, libOpenImageDenoise.so.2 (default: GATELIGHT_OIDN "
-                                 "of the environment, else where scripts/setup or the system have it)"),
-                        InRecipe::unless_reproducible),
-              {kDenoiser});
+  picture.add(
+      in_recipe(of_denoise(any_word("oidn", library, "FILE|FOLDER",
+                                    "Open Image Denoise 2, libOpenImageDenoise.so.2 (default: GATELIGHT_OIDN "
+                                    "of the environment, else where scripts/setup or the system have it)")),
+                InRecipe::unless_reproducible),
+      {kDenoiser});
 }
 
 /// Checkpoints store the chosen instruction sets separately.
 void add_machine_options(std::vector<Option>& table, int& threads, std::size_t& memory_limit_bytes,
                          std::string& isa) {
   OptionGroup machine{table, "Machine"};
-  machine.add(in_recipe(common(number("threads", threads, {0, 1024}, "N",
-                                      "0: as many as the machine and the control group allow")),
+  machine.add(in_recipe(common(of_denoise(number("threads", threads, {0, 1024}, "N",
+                                                 "0: as many as the machine and the control group allow"))),
                         InRecipe::unless_reproducible));
   const auto read_limit = [&](const std::string& text) {
-    memory_limit_bytes = static_cast<std::size_t>(parse_integer("--memory-limit", text, kMebibytes)) << 20;
+    memory_limit_bytes = static_cast<std::size_t>(parse_integer("memory-limit", text, kMebibytes)) << 20;
   };
   machine.add(in_recipe({.name = "memory-limit",
                          .unit = "MIB",
                          .help = "Largest memory, in MiB; more is refused; 0: no limit",
                          .value = [&] { return value_of(memory_limit_bytes >> 20); },
                          .read = read_limit,
-                         .common = true},
+                         .common = true,
+                         .of_denoise = true},
                         InRecipe::unless_reproducible));
-  machine.add(choice("isa", isa, kIsa, "Instruction set of ray tracing, shading and the cache"));
+  machine.add(of_field(choice("isa", isa, kIsa, "Instruction set of ray tracing, shading and the cache")));
 }
 
 }  // namespace
@@ -238,8 +245,8 @@ std::vector<Option> picture_options(RenderOptions& options) {
   OptionGroup picture{table, "Picture"};
   picture.add(size_option(width, height));
   picture.add(region_option(region));
-  picture.add(common(number("spp", spp, {1, kUnlimitedSpp}, "N",
-                            "Samples per pixel; a limit with --time-limit or --max-error")));
+  picture.add(common(in_window(number("spp", spp, {1, kUnlimitedSpp}, "N",
+                                      "Samples per pixel; a limit with --time-limit or --max-error"))));
   picture.add(common(not_in_sweep(
       number("time-limit", time_limit_seconds, kNotNegative, "SECONDS",
              "Time of scouting, training, rendering and denoising together; it decides --spp and the "
@@ -250,12 +257,12 @@ std::vector<Option> picture_options(RenderOptions& options) {
       "Stop where the estimated error of the picture is at most this, as 0.05: relative RMS, the "
       "square root of compare's rel_mse, without the bias of a cache; without --spp at 65536 samples at "
       "the latest; 0: off"))));
-  picture.add(common(number("seed", seed, {0, std::numeric_limits<std::uint32_t>::max()}, "N",
-                            "Seed of all random numbers")));
+  picture.add(common(in_window(of_field(number("seed", seed, {0, std::numeric_limits<std::uint32_t>::max()},
+                                               "N", "Seed of all random numbers")))));
   picture.add(choice("sampler", sampler, "Kind of random numbers"));
-  picture.add(choice("filter", filter, "Pixel filter"));
-  picture.add(number("filter-width", filter_width, {0.0, 32.0}, "PIXELS",
-                     "Full width of the pixel filter; 0: the filter's own"));
+  picture.add(of_denoise(choice("filter", filter, "Pixel filter")));
+  picture.add(of_denoise(number("filter-width", filter_width, {0.0, 32.0}, "PIXELS",
+                                "Full width of the pixel filter; 0: the filter's own")));
   add_denoise_options(picture, denoise);
   picture.add(aov_option(aovs));
   picture.add(cryptomatte_option(cryptomattes));  // film and checkpoint do not store it
@@ -265,8 +272,9 @@ std::vector<Option> picture_options(RenderOptions& options) {
 
   OptionGroup light{table, "Light transport"};
   light.add(integrator_option(integrator, choose_integrator));
-  light.add(common(number_or("none", "max-depth", max_depth, kDepth, "N",
-                             "Largest number of scattering events; 1: emission and direct light")));
+  light.add(
+      common(in_window(number_or("none", "max-depth", max_depth, kDepth, "N",
+                                 "Largest number of scattering events; 1: emission and direct light"))));
   light.add(number_or("none", "max-transmission-depth", max_transmission_depth, kDepth, "N",
                       "Largest number of them that go to the other side of a surface; panes do not count"));
   light.add(number("min-depth", min_depth, kDepth, "N", "Russian roulette starts after this many events"));
@@ -287,8 +295,8 @@ std::vector<Option> picture_options(RenderOptions& options) {
                                    "METRES", "Reach of ambient occlusion; inf allowed"));
   reach.value = [&options] { return options.ao_distance < 0.0f ? OptionValue() : options.ao_distance; };
   reach.default_text = "a tenth of the scene's diagonal";
-  light.add(
-      common(number("clamp", clamp, kNotNegative, "X", "Largest luminance of one sample (biased); 0: off")));
+  light.add(common(in_window(
+      number("clamp", clamp, kNotNegative, "X", "Largest luminance of one sample (biased); 0: off"))));
   light.add(choice("nan", nan_policy, "Treatment of a sample that is not finite"));
 
   add_cache_options(table, cache);

@@ -53,13 +53,13 @@ void check_stdout(std::span<const std::string> outputs, const std::string& stats
   for (const std::string& output : outputs) {
     if (!stdout_format(output)) continue;
     if (first)
-      throw UsageError(fmt::format("--output: '{}' and '{}' are both standard output, expected one of them",
-                                   *first, output));
+      throw BadOption(
+          {"output", *first, fmt::format("and '{}' are both standard output", output), "one of them"});
     first = &output;
   }
   if (first && stats == "-")
-    throw UsageError(
-        fmt::format("--stats: '-' is standard output, where --output '{}' writes, expected a file", *first));
+    throw BadOption(
+        {"stats", "-", fmt::format("is standard output, where `output` '{}' writes", *first), "a file"});
 }
 
 void check_picture_output(const std::string& output) {

@@ -25,7 +25,7 @@ std::vector<std::string> files_of(std::span<const std::string> outputs);
 /// An empty file is no picture.
 bool are_there(std::span<const std::string> outputs);
 
-/// Throws UsageError where two results would go to standard output. `stats` may be empty.
+/// Throws BadOption where two results would go to standard output. `stats` may be empty.
 void check_stdout(std::span<const std::string> outputs, const std::string& stats = "");
 
 /// Throws UnknownFormat or OutputError where write_picture() cannot write, also to a terminal.

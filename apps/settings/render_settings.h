@@ -38,7 +38,7 @@ struct RenderSettings {
   bool quiet = false;
   bool verbose = false;
   std::optional<renderer::CachePreset> preset;
-  std::set<std::string> given;  ///< flags on the command line or in --config, with their dashes
+  std::set<std::string> given;  ///< names of the options on the command line or in --config
 };
 
 }  // namespace gatelight::apps

@@ -7,10 +7,10 @@ void show_well(RenderSettings& settings) {
   if (!settings.preset) return;
   const renderer::Integrator integrator = settings.render.integrator;
   const bool radiance = integrator == renderer::Integrator::nrc || integrator == renderer::Integrator::path;
-  if (radiance && !settings.given.contains("--exposure")) settings.exposure.reset();
+  if (radiance && !settings.given.contains("exposure")) settings.exposure.reset();
   const bool finished = settings.preset == CachePreset::preview || settings.preset == CachePreset::standard ||
                         settings.preset == CachePreset::final;
-  if (radiance && finished && !settings.given.contains("--tonemap"))
+  if (radiance && finished && !settings.given.contains("tonemap"))
     settings.image.display.tonemap = renderer::Tonemap::agx;
 }
 

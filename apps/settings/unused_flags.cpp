@@ -1,11 +1,12 @@
 #include "apps/settings/unused_flags.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
-#include <initializer_list>
 #include <set>
 
+#include "apps/settings/option_table.h"
 #include "apps/settings/picture_output.h"
 
 namespace gatelight::apps {
@@ -19,27 +20,30 @@ bool shows_on_a_screen(const std::vector<std::string>& outputs) {
   });
 }
 
-std::vector<std::string> unused_output_flags(const RenderSettings& settings) {
+std::vector<std::string> unused_output_flags(RenderSettings settings) {
+  constexpr const char* kExtensions[] = {".exr", ".png", ".jpg", ".tif", ".hdr"};  // of ImageFormat
   std::set<ImageFormat> formats;
   for (const std::string& output : settings.outputs) formats.insert(output_format(output));
-  const auto any = [&](std::initializer_list<ImageFormat> wanted) {
-    return std::any_of(wanted.begin(), wanted.end(), [&](ImageFormat f) { return formats.contains(f); });
-  };
   std::vector<std::string> unused;
-  const auto need = [&](std::initializer_list<const char*> flags, bool useful, const char* what) {
-    for (const char* flag : flags) {
-      if (settings.given.contains(flag) && !useful)
-        unused.push_back(fmt::format("{} changes nothing: {}", flag, what));
+  for (const Option& option : option_table(settings)) {
+    if (!settings.given.contains(option.name) || option.formats.empty()) continue;
+    std::vector<std::string> extensions;
+    bool useful = false;
+    for (const ImageFormat format : option.formats) {
+      useful |= formats.contains(format);
+      extensions.emplace_back(kExtensions[static_cast<int>(format)]);
     }
-  };
-  const bool displayed = shows_on_a_screen(settings.outputs);
-  need({"--exposure", "--white-balance", "--tonemap", "--ocio"}, displayed,
-       "no output is a .png, .jpg or .tif");
-  need({"--tonemap"}, settings.image.display.ocio.config.empty(), "the view of --ocio has its own curve");
-  need({"--ocio-display", "--ocio-view"}, !settings.image.display.ocio.config.empty(), "there is no --ocio");
-  need({"--bits"}, any({ImageFormat::png, ImageFormat::tiff}), "no output is a .png or .tif");
-  need({"--exr", "--aov", "--cryptomatte", "--light-groups"}, any({ImageFormat::exr}),
-       "no output is an .exr");
+    if (!useful)
+      unused.push_back(
+          fmt::format("{} changes nothing: no output is {}", option.flag(), fmt::join(extensions, " or ")));
+  }
+  const bool has_ocio = !settings.image.display.ocio.config.empty();
+  for (const char* name : {"ocio-display", "ocio-view"}) {
+    if (settings.given.contains(name) && !has_ocio)
+      unused.push_back(fmt::format("--{} changes nothing: there is no --ocio", name));
+  }
+  if (settings.given.contains("tonemap") && has_ocio)
+    unused.emplace_back("--tonemap changes nothing: the view of --ocio has its own curve");
   return unused;
 }
 

@@ -10,7 +10,7 @@ namespace gatelight::apps {
 
 /// A line for each flag that was given and changes none of the outputs, as --exposure of an EXR. Such flags
 /// are harmless, so they are reported and not refused.
-std::vector<std::string> unused_output_flags(const RenderSettings& settings);
+std::vector<std::string> unused_output_flags(RenderSettings settings);
 
 /// Whether some output is a picture as a screen shows it: PNG, JPEG or TIFF.
 bool shows_on_a_screen(const std::vector<std::string>& outputs);

@@ -24,15 +24,11 @@ std::string text_of(const json& value) {
   return fmt::format("{}", fmt::join(parts, ","));
 }
 
-/// Whether flags beside the file replace a member: its own, or one that excludes it.
-bool replaced(const std::set<std::string>& given, const std::string& member) {
-  const auto any = [&](std::initializer_list<const char*> flags) {
-    return std::any_of(flags.begin(), flags.end(), [&](const char* flag) { return given.contains(flag); });
-  };
-  if (given.contains("--" + member)) return true;
-  if (member == "camera") return any({"--eye", "--target"});
-  if (member == "eye" || member == "target" || member == "up") return any({"--camera"});
-  return (member == "fov" || member == "lens") && any({"--fov", "--lens"});
+/// Whether options beside the file replace a member: its own, or one that excludes it.
+bool replaced(const std::set<std::string>& given, const Option& member) {
+  return given.contains(member.name) ||
+         std::any_of(member.excludes.begin(), member.excludes.end(),
+                     [&](const std::string& other) { return given.contains(other); });
 }
 
 json read_object(const std::string& path) {
@@ -61,7 +57,7 @@ void read_view_file(RenderSettings& settings) {
       throw InputError(fmt::format("the view '{}' has the member '{}', expected some of {}",
                                    settings.view_file, name, fmt::join(names, ", ")));
     }
-    if (value.is_null() || replaced(settings.given, name)) continue;
+    if (value.is_null() || replaced(settings.given, *option)) continue;
     try {
       option->read(text_of(value));
     } catch (const BadOption& error) {

@@ -17,7 +17,7 @@ void read_environment(EnvironmentOptions& environment, const std::string& text) 
   environment.constant = Color::Zero();
   if (text == "none" || text == "auto") return;
   if (looks_like_triple(text)) {
-    const std::array<float, 3> rgb = parse_triple("--environment", text, kNotNegative);
+    const std::array<float, 3> rgb = parse_triple("environment", text, kNotNegative);
     environment.constant = {rgb[0], rgb[1], rgb[2]};
   } else {
     environment.file = text;
@@ -39,7 +39,7 @@ void read_background(BackgroundOptions& background, const std::string& text) {
   if (text == "transparent") {
     background.kind = Kind::transparent;
   } else if (looks_like_triple(text)) {
-    const std::array<float, 3> rgb = parse_triple("--background", text, kNotNegative);
+    const std::array<float, 3> rgb = parse_triple("background", text, kNotNegative);
     background.kind = Kind::color;
     background.color = {rgb[0], rgb[1], rgb[2]};
   } else {
@@ -59,9 +59,8 @@ OptionValue background_value(const BackgroundOptions& background) {
 void read_aperture(LensOptions& lens, const std::string& text) {
   const RealRange range{.min = 0.0, .max = 1e6};
   const bool stops = text.starts_with("f/");
-  const auto value = static_cast<float>(parse_real("--aperture", stops ? text.substr(2) : text, range));
-  if (stops && !(value > 0.0f))
-    throw BadOption(fmt::format("--aperture: '{}' is no f-stop, expected more than 0", text));
+  const auto value = static_cast<float>(parse_real("aperture", stops ? text.substr(2) : text, range));
+  if (stops && !(value > 0.0f)) throw BadOption({"aperture", text, "is no f-stop", "more than 0"});
   lens.f_stop = stops ? value : 0.0f;
   lens.aperture = stops ? 0.0f : value;
 }
@@ -79,7 +78,8 @@ void add_lens_options(OptionGroup& view, LensOptions& lens) {
            "sharp",
        .value = aperture_value,
        .read = [&lens](const std::string& text) { read_aperture(lens, text); },
-       .of_view = true});
+       .of_view = true,
+       .in_window = true});
   add(of_view(any_word("focus", focus, "METRES|NODE",
                        "With --aperture: distance along the view, or an object (default: the distance in the "
                        "middle of the picture, which is reported)")))
@@ -97,16 +97,18 @@ void add_view_options(std::vector<Option>& table, renderer::CameraOptions& camer
   // Flags of the application set look_at, frames set turn.
   [[maybe_unused]] auto& [name, index, look_at, fov_degrees, focal_mm, projection, view_height, lens, turn,
                           turn_in_shutter] = camera;
-  add(common(of_view(
+  add(common(of_view(excluding(
+          {"eye", "target", "up"},
           any_word("camera", name, "NAME|INDEX",
                    "Camera of the file, by its name, its node's or its index (default: the first); all of "
-                   "them with 'all' and {camera} in the outputs' names"))))
+                   "them with 'all' and {camera} in the outputs' names")))))
       .value = [&camera] { return camera.look_at || camera.name.empty() ? OptionValue() : camera.name; };
   // Beyond these bounds tangents leave the range of single precision.
-  add(common(of_view(number_or("", "fov", fov_degrees, {0.001, 179.9}, "DEGREES",
-                               "Vertical field of view; overrides the camera's"))));
-  add(of_view(number_or("", "lens", focal_mm, {0.1, 1e5}, "MM",
-                        "The same by a focal length, with 36 mm across the wider side of the picture")));
+  add(common(of_view(excluding({"lens"}, number_or("", "fov", fov_degrees, {0.001, 179.9}, "DEGREES",
+                                                   "Vertical field of view; overrides the camera's")))));
+  add(of_view(excluding(
+      {"fov"}, number_or("", "lens", focal_mm, {0.1, 1e5}, "MM",
+                         "The same by a focal length, with 36 mm across the wider side of the picture"))));
   add(of_view(
       choice("projection", projection,
              "As the camera of the file, or one of these; a panorama shows all directions around the camera "
@@ -122,7 +124,9 @@ void add_view_options(std::vector<Option>& table, renderer::CameraOptions& camer
                "latitude-longitude .exr or .hdr",
        .value = [&environment] { return environment_value(environment); },
        .read = [&environment](const std::string& text) { read_environment(environment, text); },
-       .common = true});
+       .common = true,
+       .in_window = true,
+       .excludes = {"sky"}});
   add({.name = "sky",
        .unit = "none|clear|PART=VALUE,...",
        .help = "Instead of --environment a clear sky with a sun: turbidity=3, sun=AZIMUTH,ELEVATION "
@@ -138,8 +142,10 @@ void add_view_options(std::vector<Option>& table, renderer::CameraOptions& camer
        .read =
            [&environment](const std::string& text) {
              environment.sky.reset();
-             if (text != "none") environment.sky = read_sky("--sky", text);
-           }});
+             if (text != "none") environment.sky = read_sky("sky", text);
+           },
+       .in_window = true,
+       .excludes = {"environment"}});
   // One flag sets the first three.
   [[maybe_unused]] auto& [kind, color, background_file, shadow_catcher] = background;
   view.add({.name = "background",
@@ -150,15 +156,17 @@ void add_view_options(std::vector<Option>& table, renderer::CameraOptions& camer
                 "environment",
             .value = [&background] { return background_value(background); },
             .read = [&background](const std::string& text) { read_background(background, text); },
-            .common = true});
+            .common = true,
+            .in_window = true,
+            .of_denoise = true});
   view.add(any_word("shadow-catcher", shadow_catcher, "NODE",
                     "With --background: an object of the file that is invisible but for the shadows on it"))
       .value = [&background] {
     return background.shadow_catcher.empty() ? OptionValue() : background.shadow_catcher;
   };
-  add(number("environment-rotation", rotation_degrees, kAnyFloat, "DEGREES",
-             "Turns the environment about +y, counter-clockwise from above"));
-  add(common(number("environment-scale", scale, kNotNegative, "X", "Multiplies the environment")));
+  add(in_window(number("environment-rotation", rotation_degrees, kAnyFloat, "DEGREES",
+                       "Turns the environment about +y, counter-clockwise from above")));
+  add(common(in_window(number("environment-scale", scale, kNotNegative, "X", "Multiplies the environment"))));
 }
 
 }  // namespace gatelight::apps

@@ -22,12 +22,12 @@ std::vector<std::string> split_values(const std::string& flag, const std::string
   std::set<std::string> seen;
   for (const std::string& value : values) {
     if (value.empty()) {
-      throw UsageError(fmt::format("{}: '{}' is not a list of values separated by {}", flag, text,
-                                   separator == ',' ? "commas" : "semicolons"));
+      throw BadOption(
+          {flag, text, "",
+           fmt::format("a list of values separated by {}", separator == ',' ? "commas" : "semicolons")});
     }
     if (!seen.insert(value).second) {
-      throw UsageError(
-          fmt::format("{}: '{}' holds '{}' twice, expected different values", flag, text, value));
+      throw BadOption({flag, text, fmt::format("holds '{}' twice", value), "different values"});
     }
   }
   return values;
@@ -46,12 +46,11 @@ std::vector<int> split_integers(const std::string& flag, const std::string& text
 SweepAxis parse_vary(const std::string& text) {
   const std::size_t equals = text.find('=');
   if (equals == std::string::npos || equals == 0) {
-    throw UsageError(fmt::format("--vary: '{}' is not NAME=V1,V2 with the name of a flag of render", text));
+    throw BadOption({"vary", text, "", "NAME=V1,V2 with the name of a flag of render"});
   }
   const std::string name = text.substr(0, equals);
   const std::string flag = name.rfind("--", 0) == 0 ? name : fmt::format("--{}", name);
-  std::vector<std::string> values =
-      split_values(fmt::format("--vary {}", flag.substr(2)), text.substr(equals + 1), flag == "--stack");
+  std::vector<std::string> values = split_values("vary", text.substr(equals + 1), flag == "--stack");
   return {flag, std::move(values)};
 }
 

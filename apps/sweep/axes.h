@@ -14,7 +14,7 @@ struct SweepAxis {
 };
 
 /// Splits "a,b" into two values, and "a,b;c" into "a,b" and "c". Values that are lists themselves (--stack)
-/// are not split at commas. Throws UsageError for empty and repeated values.
+/// are not split at commas. Throws BadOption for empty and repeated values.
 std::vector<std::string> split_values(const std::string& flag, const std::string& text,
                                       bool values_are_lists = false);
 

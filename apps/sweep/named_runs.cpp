@@ -22,14 +22,13 @@ std::string trimmed(const std::string& text) {
 NamedRun parse_run(const std::string& text) {
   const std::size_t colon = text.find(':');
   NamedRun run{trimmed(text.substr(0, colon)), {}};
-  if (colon == std::string::npos || run.name.empty())
-    throw UsageError(fmt::format("--run: '{}' is not 'NAME: FLAGS'", text));
+  if (colon == std::string::npos || run.name.empty()) throw BadOption({"run", text, "", "'NAME: FLAGS'"});
   std::istringstream words(text.substr(colon + 1));
   for (std::string flag; words >> flag;) {
     const std::size_t equals = flag.find('=');
     std::string value = equals == std::string::npos ? "" : flag.substr(equals + 1);
     if (flag.rfind("--", 0) != 0 || (equals == std::string::npos && !(words >> value)))
-      throw UsageError(fmt::format("--run: '{}' in '{}' is no flag with a value", flag, text));
+      throw BadOption({"run", flag, fmt::format("in '{}' is no flag with a value", text)});
     set_flag(run.flags, flag.substr(0, equals), value);
   }
   return run;

@@ -47,14 +47,11 @@ RenderSettings settle(FlagValues& flags, bool named = false) {
       continue;
     }
     const bool has_cache = renderer::uses_cache(o.integrator);
-    for (const std::string& flag : flags_without_effect(settings)) {
-      if (!drop_flag(flags, flag)) continue;
-      dropped = true;
-    }
+    for (const std::string& name : options_without_effect(settings)) dropped |= drop_flag(flags, "--" + name);
     if (!has_cache && !named) dropped |= drop_flag(flags, "--spp");
   }
   if (!settings.exposure) {
-    throw UsageError("--exposure: 'auto' differs between pictures, expected a number of stops for a sweep");
+    throw BadOption({"exposure", "auto", "differs between pictures", "a number of stops for a sweep"});
   }
   // With only a preset, `render` would choose an exposure for each picture, and another curve.
   if (find_flag(flags, "--preset")) {
@@ -77,10 +74,10 @@ std::optional<double> take_same_as_gate(FlagValues& flags) {
   double divisor = 1.0;
   if (!rest.empty()) {
     if (rest.front() != '/') {
-      throw UsageError(
-          fmt::format("--cache-memory: '{}' is not {} or {}/DIVISOR", *value, kSameAsGate, kSameAsGate));
+      throw BadOption(
+          {"cache-memory", *value, "", fmt::format("{} or {}/DIVISOR", kSameAsGate, kSameAsGate)});
     }
-    divisor = parse_real("--cache-memory same-as-gate/DIVISOR", rest.substr(1), kPositive);
+    divisor = parse_real("cache-memory", rest.substr(1), kPositive);
   }
   drop_flag(flags, "--cache-memory");
   return divisor;
@@ -146,8 +143,8 @@ class Planner {
     double count = 1.0;
     for (const SweepAxis& axis : block.axes) count *= static_cast<double>(axis.values.size());
     if (count > kMost) {
-      throw UsageError(fmt::format(
-          "--vary and the like: {:.0f} combinations of values, expected at most {:.0f}", count, kMost));
+      throw BadOption({"vary", "", fmt::format("there are {:.0f} combinations of values", count),
+                       fmt::format("at most {:.0f}", kMost)});
     }
   }
 

@@ -38,7 +38,7 @@ struct SweepRequest {
   int seeds = 1;
 };
 
-/// Checks every cell. Throws UsageError, naming the bad value.
+/// Checks every cell. Throws BadOption, naming the bad value.
 SweepPlan make_plan(const SweepRequest& request);
 
 /// The plan as text, for --dry-run.

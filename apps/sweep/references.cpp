@@ -224,8 +224,7 @@ Reference given_reference(ReferenceKind kind, const std::vector<std::string>& fi
                       .rel_mse_noise = noise};
   const auto spp = picture.metadata.find("spp");
   if (spp != picture.metadata.end()) {
-    reference.spp = static_cast<int>(parse_integer("--reference: samples per pixel in its header",
-                                                   spp->second, {1, std::int64_t{1} << 30}));
+    reference.spp = static_cast<int>(parse_integer("reference", spp->second, {1, std::int64_t{1} << 30}));
   }
   return reference;
 }

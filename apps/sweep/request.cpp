@@ -56,30 +56,21 @@ bool has_axis(const std::string& flag) {
                      [&](const AxisFlag& f) { return flag == f.varies; });
 }
 
-/// Whether a flag decides which scene is loaded.
-bool is_of_scene(const std::string& flag) {
-  RenderSettings settings;
-  const std::vector<Option> table = option_table(settings);
-  return std::any_of(table.begin(), table.end(), [&](const Option& option) {
-    return option.flag() == flag && option.in_sweep == SweepUse::scene;
-  });
-}
-
 void check_vary(const std::string& flag) {
   for (const Instead& other : kInstead) {
-    if (flag == other.flag)
-      throw UsageError(fmt::format("--vary: '{}' has a flag of its own, expected {}", flag, other.use));
+    if (flag == other.flag) throw BadOption({"vary", flag, "has a flag of its own", other.use});
   }
-  if (is_of_scene(flag)) {
-    throw UsageError(
-        fmt::format("--vary: '{}' decides which scene is loaded, expected one value for all cells", flag));
+  if (option_names([](const Option& option) {
+        return option.stage == OptionStage::load;
+      }).contains(flag.substr(2))) {
+    throw BadOption({"vary", flag, "decides which scene is loaded", "one value for all cells"});
   }
   if (!has_axis(flag) && flag != "--preset" && !is_base_flag(flag)) {
     std::vector<std::string> names = base_flag_names();
     for (std::string& name : names) name.erase(0, 2);
-    throw UsageError(fmt::format(
-        "--vary: '{}' is no flag of render that decides a picture, see gatelight render --help-all{}", flag,
-        did_you_mean(flag.substr(2), names)));
+    throw BadOption({"vary", flag,
+                     "is no flag of render that decides a picture, see gatelight render --help-all", "",
+                     did_you_mean(flag.substr(2), names)});
   }
 }
 
@@ -91,23 +82,24 @@ struct NamedAxis {
 std::vector<NamedAxis> read_axes(const SweepWords& words) {
   std::vector<NamedAxis> axes;
   for (const auto& [flag, text] : words.axes) {
-    axes.push_back({flag.name, {flag.varies, split_values(flag.name, text, flag.values_are_lists)}});
+    const std::string name = flag.name + 2;
+    axes.push_back({name, {flag.varies, split_values(name, text, flag.values_are_lists)}});
   }
   for (const std::string& text : words.vary) {
     SweepAxis axis = parse_vary(text);
     check_vary(axis.flag);
-    axes.push_back({"--vary " + axis.flag.substr(2), std::move(axis)});
+    axes.push_back({"vary", std::move(axis)});
   }
   for (std::size_t i = 0; i < axes.size(); ++i) {
     const std::string& flag = axes[i].axis.flag;
     for (std::size_t j = 0; j < i; ++j) {
       if (axes[j].axis.flag != flag) continue;
-      throw UsageError(fmt::format("{}: '{}' is varied by {} too, expected one of them", axes[i].given_as,
-                                   flag, axes[j].given_as));
+      throw BadOption(
+          {axes[i].given_as, flag, fmt::format("is varied by `{}` too", axes[j].given_as), "one of them"});
     }
     if (const std::string* value = find_flag(words.base, flag)) {
-      throw UsageError(fmt::format("{}: '{}' for all cells and {} exclude each other, expected one of them",
-                                   flag, *value, axes[i].given_as));
+      throw BadOption({flag.substr(2), *value,
+                       fmt::format("is for all cells and excludes `{}`", axes[i].given_as), "one of them"});
     }
   }
   return axes;
@@ -118,8 +110,7 @@ void read_scene_flag(const std::string& text, const std::vector<NamedAxis>& axes
   const std::size_t equals = text.find('=');
   const std::size_t colon = equals == std::string::npos ? equals : text.rfind(':', equals);
   if (colon == std::string::npos || equals < colon + 2) {
-    throw UsageError(
-        fmt::format("--for: '{}' is not SCENE:NAME=VALUE with the name of a flag of render", text));
+    throw BadOption({"for", text, "", "SCENE:NAME=VALUE with the name of a flag of render"});
   }
   const std::string name = text.substr(0, colon);
   const auto scene = std::find_if(request.scenes.begin(), request.scenes.end(),
@@ -127,16 +118,16 @@ void read_scene_flag(const std::string& text, const std::vector<NamedAxis>& axes
   if (scene == request.scenes.end()) {
     std::vector<std::string_view> names;
     for (const SweepScene& s : request.scenes) names.push_back(s.name);
-    refuse_choice("--for", name, join_names(names));
+    refuse_choice("for", name, join_names(names));
   }
   const std::string word = text.substr(colon + 1, equals - colon - 1);
   const std::string flag = word.rfind("--", 0) == 0 ? word : fmt::format("--{}", word);
   if (flag == "--seed" || !is_base_flag(flag)) {
-    throw UsageError(fmt::format("--for: '{}' is no flag that all cells of a scene can have", flag));
+    throw BadOption({"for", flag, "is no flag that all cells of a scene can have"});
   }
   for (const NamedAxis& named : axes) {
     if (named.axis.flag != flag) continue;
-    throw UsageError(fmt::format("--for: '{}' is varied by {}, expected one of them", flag, named.given_as));
+    throw BadOption({"for", flag, fmt::format("is varied by `{}`", named.given_as), "one of them"});
   }
   set_flag(scene->flags, flag, text.substr(equals + 1));
 }
@@ -153,14 +144,13 @@ void refuse_flags_of_rows(const SweepWords& words, const std::vector<SweepBlock>
   }
   const auto check = [&](const std::string& flag, const std::string& given_as) {
     if (!flags.contains(flag)) return;
-    throw UsageError(
-        fmt::format("{}: '{}' is what rows of --preset {} are named after, expected other flags or no preset",
-                    given_as, flag, words.preset));
+    throw BadOption({given_as, flag, fmt::format("is what rows of `preset` {} are named after", words.preset),
+                     "other flags or no preset"});
   };
-  for (const auto& [flag, value] : words.base) check(flag, flag);
+  for (const auto& [flag, value] : words.base) check(flag, flag.substr(2));
   for (const NamedAxis& named : axes) check(named.axis.flag, named.given_as);
   for (const SweepScene& scene : request.scenes) {
-    for (const auto& [flag, value] : scene.flags) check(flag, "--for " + scene.name);
+    for (const auto& [flag, value] : scene.flags) check(flag, "for");
   }
 }
 
@@ -194,20 +184,20 @@ void add_defaults(SweepBlock& block) {
 
 void read_seeds(const SweepWords& words, int seeds, SweepRequest& request) {
   request.seeds = seeds;
-  if (!words.seeds.empty()) request.seeds = static_cast<int>(parse_integer("--seeds", words.seeds, kSeeds));
+  if (!words.seeds.empty()) request.seeds = static_cast<int>(parse_integer("seeds", words.seeds, kSeeds));
   if (const std::string* seed = find_flag(words.base, "--seed")) {
-    request.first_seed = static_cast<std::uint32_t>(parse_integer("--seed", *seed, kSeed));
+    request.first_seed = static_cast<std::uint32_t>(parse_integer("seed", *seed, kSeed));
   }
   const std::uint64_t last =
       std::uint64_t{request.first_seed} + static_cast<std::uint64_t>(request.seeds) - 1;
   if (last > static_cast<std::uint64_t>(kSeed.max)) {
-    throw UsageError(fmt::format("--seed: {} seeds from '{}' on go beyond {}", request.seeds,
-                                 request.first_seed, kSeed.max));
+    throw BadOption({"seed", fmt::format("{}", request.first_seed),
+                     fmt::format("is the first of {} seeds", request.seeds),
+                     fmt::format("none beyond {}", kSeed.max)});
   }
   for (const std::uint32_t seed : kReferenceSeeds) {
     if (seed < request.first_seed || seed > last) continue;
-    throw UsageError(
-        fmt::format("--seed: {} is that of the references, expected others for the cells", seed));
+    throw BadOption({"seed", fmt::format("{}", seed), "is that of the references", "others for the cells"});
   }
 }
 
@@ -230,8 +220,7 @@ std::vector<SweepBlock> read_named_runs(const SweepWords& words) {
   for (NamedRun& run : runs) {
     for (const auto& [flag, value] : run.flags) {
       if (contains(kOwnFlags, flag) || has_axis(flag) || (flag != "--seed" && is_base_flag(flag))) continue;
-      throw UsageError(
-          fmt::format("--run: '{}' of '{}' is no flag of render that decides a picture", flag, run.name));
+      throw BadOption({"run", flag, fmt::format("in '{}' decides no picture", run.name)});
     }
     blocks.push_back(
         {.row = run.name, .base = {}, .axes = {}, .train_steps = {}, .run = std::move(run.flags)});
@@ -243,7 +232,7 @@ std::vector<std::string> find_base_flags() {
   std::vector<std::string> names;
   RenderSettings settings;
   for (const Option& option : option_table(settings)) {
-    if (option.in_sweep == SweepUse::none || option.positional || option.unit.empty()) continue;
+    if (!option.in_sweep || option.positional || option.unit.empty()) continue;
     const std::string flag = option.flag();
     const bool axis = std::any_of(std::begin(kAxisFlags), std::end(kAxisFlags),
                                   [&](const AxisFlag& f) { return flag == f.name; });
@@ -252,7 +241,7 @@ std::vector<std::string> find_base_flags() {
   return names;
 }
 
-/// Names scenes by their files, with the folder where two files have the same name. Throws UsageError for a
+/// Names scenes by their files, with the folder where two files have the same name. Throws BadOption for a
 /// file that is named twice.
 std::vector<SweepScene> name_scenes(const std::vector<std::string>& files) {
   std::map<std::string, int> stems;
@@ -260,7 +249,7 @@ std::vector<SweepScene> name_scenes(const std::vector<std::string>& files) {
   for (const std::string& file : files) {
     const std::filesystem::path path = std::filesystem::absolute(file).lexically_normal();
     if (!seen.insert(path).second) {
-      throw UsageError(fmt::format("SCENE: '{}' is named twice, expected different scenes", file));
+      throw BadOption({"SCENE", file, "is named twice", "different scenes"});
     }
     ++stems[path.stem().string()];
   }
@@ -295,7 +284,7 @@ SweepRequest make_request(const SweepWords& words) {
   if (!words.preset.empty() && !preset) {
     const std::vector<std::string_view> names = sweep_preset_names();
     if (std::find(names.begin(), names.end(), words.preset) == names.end()) {
-      refuse_choice("--preset", words.preset, join_names(names));
+      refuse_choice("preset", words.preset, join_names(names));
     }
     base.emplace_back("--preset", words.preset);
   }
@@ -314,15 +303,15 @@ SweepRequest make_request(const SweepWords& words) {
   for (SweepBlock& block : request.blocks) {
     override_block(block, base, axes);
     if (block.run && !words.train_steps.empty())
-      throw UsageError("--train-steps: named runs have their own, expected it in the flags of a --run");
+      throw BadOption({"train-steps", "", "named runs have their own", "it in the flags of a `run`"});
     if (block.run) continue;
     if (!words.train_steps.empty())
-      block.train_steps = split_integers("--train-steps", words.train_steps, kSteps);
+      block.train_steps = split_integers("train-steps", words.train_steps, kSteps);
     add_defaults(block);
   }
   request.allow_external = words.allow_external;
   request.plain_spp = rows.plain_spp.empty() ? kDefaultPlainSpp : rows.plain_spp;
-  if (!words.spp.empty()) request.plain_spp = split_integers("--spp", words.spp, kSpp);
+  if (!words.spp.empty()) request.plain_spp = split_integers("spp", words.spp, kSpp);
   // The paper has no rows without a cache.
   request.plain = !words.no_plain && (!preset || !words.spp.empty() || !rows.plain_spp.empty());
   read_seeds(words, preset ? rows.seeds : 1, request);

@@ -53,7 +53,7 @@ struct SweepWords {
   bool allow_external = false;
 };
 
-/// Throws UsageError. Values of axes are checked by make_plan().
+/// Throws BadOption. Values of axes are checked by make_plan().
 SweepRequest make_request(const SweepWords& words);
 
 /// All settings of `gatelight sweep`.

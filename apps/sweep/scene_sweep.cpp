@@ -98,10 +98,9 @@ std::optional<Reference> SceneSweep::find_given() {
   std::set<std::string> wanted;
   for (const PlannedSeries& series : series_) wanted.insert(planned_reference(series).key);
   if (wanted.size() > 1) {
-    throw UsageError(
-        fmt::format("--reference: '{}' is one picture, but the cells need {} different ones, expected "
-                    "--reference-spp",
-                    settings_.reference_files.front(), wanted.size()));
+    throw BadOption({"reference", settings_.reference_files.front(),
+                     fmt::format("is one picture, but the cells need {} different ones", wanted.size()),
+                     "`reference-spp`"});
   }
   const PlannedSeries& any = series_.front();
   return given_reference(any.reference, settings_.reference_files, any.settings.render);

@@ -24,7 +24,7 @@ class SceneSweep {
   SceneSweep& operator=(const SceneSweep&) = delete;
 
   /// Loads the scene, names its cells and reads those that are done. Returns false where a signal ended it.
-  /// Throws what loading throws, and UsageError and others for a --reference that does not fit.
+  /// Throws what loading throws, and BadOption and others for a --reference that does not fit.
   bool open();
   /// The tasks of missing cells; empty where all cells are done.
   std::vector<SweepTask> tasks() const;

@@ -61,10 +61,10 @@ void check_inputs(const SweepSettings& settings, const SweepPlan& plan) {
     for (const PlannedSeries& series : scene.series) kinds.insert(series.reference);
   }
   if (plan.scenes.size() > 1 || kinds.size() > 1) {
-    throw UsageError(fmt::format(
-        "--reference: '{}' is one picture, but there are {} scenes with {} kinds of pictures, expected "
-        "--reference-spp",
-        settings.reference_files.front(), plan.scenes.size(), kinds.size()));
+    throw BadOption({"reference", settings.reference_files.front(),
+                     fmt::format("is one picture, but there are {} scenes with {} kinds of pictures",
+                                 plan.scenes.size(), kinds.size()),
+                     "`reference-spp`"});
   }
 }
 

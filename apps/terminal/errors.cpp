@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -52,8 +53,13 @@ constexpr Answer kAnswers[] = {
 Failure failure_of(const Error& error) {
   const Answer& answer = *std::find_if(std::begin(kAnswers), std::end(kAnswers),
                                        [&](const Answer& a) { return a.kind == error.kind(); });
-  const char* const about = error.kind() == ErrorKind::model ? "the cache cannot have these options: " : "";
-  return {answer.code, about + with_flags(error.what()), answer.advice};
+  ErrorParts parts = error.parts();
+  if (!parts.option.empty() && std::islower(static_cast<unsigned char>(parts.option.front())))
+    parts.option.insert(0, "--");
+  const bool plain = parts.option.empty();
+  const char* const about =
+      plain && error.kind() == ErrorKind::model ? "the cache cannot have these options: " : "";
+  return {answer.code, plain ? about + std::string(error.what()) : sentence(parts), answer.advice};
 }
 
 /// oneTBB throws an error of no kind where it cannot start a thread.

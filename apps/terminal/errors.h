@@ -23,9 +23,6 @@ enum ExitCode : int {
   kSignalBase = 128,  ///< plus the signal's number
 };
 
-/// The command line is wrong. The message names the flag, the value and what was expected.
-using UsageError = BadOption;
-
 struct Failure {
   int code = kUsage;
   std::string message;  ///< what failed and on which file

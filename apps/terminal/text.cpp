@@ -6,7 +6,6 @@
 #include <charconv>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <regex>
 
 namespace gatelight::apps {
 
@@ -88,11 +87,6 @@ std::string quote_command(const std::vector<std::string>& command) {
     line += '\'';
   }
   return line;
-}
-
-std::string with_flags(const std::string& message) {
-  static const std::regex option("`([a-z][a-z0-9-]*)`");
-  return std::regex_replace(message, option, "--$1");
 }
 
 }  // namespace gatelight::apps

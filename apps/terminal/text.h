@@ -25,9 +25,6 @@ std::string format_percent(double fraction);  ///< "0.31 %", "3.1 %", "312 %"
 /// JSON as text. Bytes that are not UTF-8, which file names may have, are replaced. indent -1: one line.
 std::string json_text(const nlohmann::ordered_json& json, int indent = 1);
 
-/// The libraries name options in back-ticks; the program names its flags: `max-depth` becomes --max-depth.
-std::string with_flags(const std::string& message);
-
 /// The command with the quotes that a shell needs.
 std::string quote_command(const std::vector<std::string>& command);
 

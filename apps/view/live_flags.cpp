@@ -3,8 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <string_view>
+#include <iterator>
 
 #include "apps/settings/complete_settings.h"
 #include "apps/settings/flags.h"
@@ -16,51 +15,29 @@
 namespace gatelight::apps {
 namespace {
 
-constexpr std::array<std::string_view, 27> kLive = {"animation",
-                                                    "aperture",
-                                                    "background",
-                                                    "blades",
-                                                    "camera",
-                                                    "clamp",
-                                                    "environment",
-                                                    "environment-rotation",
-                                                    "environment-scale",
-                                                    "exposure",
-                                                    "eye",
-                                                    "focus",
-                                                    "fov",
-                                                    "lens",
-                                                    "lights",
-                                                    "max-depth",
-                                                    "projection",
-                                                    "seed",
-                                                    "size",
-                                                    "sky",
-                                                    "spp",
-                                                    "target",
-                                                    "time",
-                                                    "tonemap",
-                                                    "up",
-                                                    "view-height",
-                                                    "white-balance"};
-
-/// Flags that exclude each other: a new one replaces those before.
-constexpr std::array<std::array<std::string_view, 2>, 3> kInsteadOf = {
-    {{"camera", "eye"}, {"camera", "target"}, {"sky", "environment"}}};
+/// The options that a window changes, with those that they replace.
+const std::map<std::string, std::vector<std::string>>& live_options() {
+  static const std::map<std::string, std::vector<std::string>> options = [] {
+    std::map<std::string, std::vector<std::string>> live;
+    RenderSettings settings;
+    for (const Option& option : option_table(settings)) {
+      if (option.in_window) live[option.name] = option.excludes;
+    }
+    return live;
+  }();
+  return options;
+}
 
 std::vector<std::string> words_of(const std::vector<std::string>& words, const LiveFlags& flags) {
+  std::set<std::string> replaced;
+  for (const auto& [name, value] : flags) {
+    replaced.insert(name);
+    replaced.insert(live_options().at(name).begin(), live_options().at(name).end());
+  }
   std::vector<std::string> all;
-  const auto is_replaced = [&](std::string_view word) {
-    word.remove_prefix(2);
-    const std::string_view name = word.substr(0, word.find('='));
-    if (flags.contains(std::string(name))) return true;
-    return std::any_of(kInsteadOf.begin(), kInsteadOf.end(), [&](const auto& pair) {
-      return (name == pair[0] && flags.contains(std::string(pair[1]))) ||
-             (name == pair[1] && flags.contains(std::string(pair[0])));
-    });
-  };
-  std::copy_if(words.begin(), words.end(), std::back_inserter(all),
-               [&](const std::string& word) { return !is_replaced(word); });
+  std::copy_if(words.begin(), words.end(), std::back_inserter(all), [&](const std::string& word) {
+    return !replaced.contains(word.substr(2, word.find('=') - 2));
+  });
   for (const auto& [name, value] : flags) all.push_back(fmt::format("--{}={}", name, value));
   return all;
 }
@@ -71,7 +48,7 @@ std::vector<std::string> given_words(RenderSettings settings) {
   std::vector<std::string> words;
   const std::set<std::string> given = settings.given;
   for (const Option& option : option_table(settings)) {
-    if (!given.contains(option.flag()) || option.positional || option.name == "config") continue;
+    if (!given.contains(option.name) || option.positional || option.name == "config") continue;
     words.push_back(option.toggle ? option.flag() : option.flag() + "=" + option.text());
   }
   return words;
@@ -79,20 +56,16 @@ std::vector<std::string> given_words(RenderSettings settings) {
 
 LiveFlags changed(LiveFlags flags, const FlagChange& change) {
   for (const auto& [name, value] : change) {
-    if (std::find(kLive.begin(), kLive.end(), name) == kLive.end())
-      throw UsageError(
-          fmt::format("--{}: a window does not change it, expected it on the command line of "
-                      "`gatelight view`",
-                      one_line(name)));
+    const auto option = live_options().find(name);
+    if (option == live_options().end())
+      throw BadOption(
+          {one_line(name), "", "a window does not change it", "it on the command line of `gatelight view`"});
     if (!value) {
       flags.erase(name);
       continue;
     }
     flags[name] = *value;
-    for (const auto& [one, other] : kInsteadOf) {
-      if (name == one) flags.erase(std::string(other));
-      if (name == other) flags.erase(std::string(one));
-    }
+    for (const std::string& other : option->second) flags.erase(other);
   }
   return flags;
 }

@@ -20,11 +20,11 @@ using FlagChange = std::map<std::string, std::optional<std::string>>;
 /// were read.
 std::vector<std::string> given_words(RenderSettings settings);
 
-/// The flags after a change. Throws UsageError for a flag that a window does not change.
+/// The flags after a change. Throws BadOption for a flag that a window does not change.
 LiveFlags changed(LiveFlags flags, const FlagChange& change);
 
 /// The settings of `gatelight render SCENE` with the words of the command line and, over them, the live
-/// flags. Throws UsageError.
+/// flags. Throws BadOption.
 RenderSettings settings_of(const std::string& scene, const std::vector<std::string>& words,
                            const LiveFlags& flags);
 

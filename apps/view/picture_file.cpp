@@ -3,20 +3,12 @@
 #include <algorithm>
 #include <utility>
 
+#include "apps/settings/option_table.h"
 #include "apps/terminal/errors.h"
 #include "renderer/image/auto_exposure.h"
 #include "renderer/image/image_read.h"
 
 namespace gatelight::apps {
-namespace {
-
-/// The flags that change how a picture is shown.
-bool is_of_display(const std::string& name) {
-  return name == "exposure" || name == "tonemap" || name == "white-balance";
-}
-
-}  // namespace
-
 PictureFile::PictureFile(const std::string& file, std::vector<std::string> words)
     : file_(file),
       words_(std::move(words)),
@@ -43,9 +35,11 @@ PictureFile::Viewer& PictureFile::viewer(const std::string& name) {
 }
 
 std::uint64_t PictureFile::change(const std::string& name, const FlagChange& flags, const std::string&) {
+  const std::set<std::string> known = option_names(
+      [](const Option& option) { return option.in_window && option.stage == OptionStage::output; });
   for (const auto& [flag, value] : flags) {
-    if (!is_of_display(flag))
-      throw UsageError("--" + one_line(flag) + ": a finished picture does not change by it");
+    if (!known.contains(flag))
+      throw BadOption({one_line(flag), "", "a finished picture does not change by it"});
   }
   const std::lock_guard lock(mutex_);
   Viewer& of = viewer(name);

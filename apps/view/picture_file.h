@@ -12,7 +12,7 @@ namespace gatelight::apps {
 /// Its viewers change how it is shown.
 class PictureFile : public PictureSource {
  public:
-  /// Reads the file. `words`: --exposure, --tonemap, --white-balance. Throws InputError, UsageError.
+  /// Reads the file. `words`: --exposure, --tonemap, --white-balance. Throws InputError, BadOption.
   PictureFile(const std::string& file, std::vector<std::string> words);
 
   const std::string& file() const override { return file_; }

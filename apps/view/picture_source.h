@@ -58,7 +58,7 @@ class PictureSource {
   virtual const SceneOutline* outline() const = 0;
 
   /// Changes flags of a viewer, and the layer that it shows (empty: as before; "none": the picture). Returns
-  /// the new revision. Throws UsageError, with nothing changed.
+  /// the new revision. Throws BadOption, with nothing changed.
   virtual std::uint64_t change(const std::string& viewer, const FlagChange& flags,
                                const std::string& layer) = 0;
   virtual LiveFlags flags(const std::string& viewer) = 0;

@@ -30,7 +30,7 @@ ordered_json values_at(const Layer& layer, std::size_t pixel) {
 
 ordered_json pixel_report(const renderer::Picture& picture, const SceneOutline* outline, double x, double y) {
   if (!(x >= 0.0 && x <= 1.0 && y >= 0.0 && y <= 1.0))
-    throw BadOption("x, y: expected a place in the picture, 0 to 1");
+    throw BadOption({"x", fmt::format("{},{}", x, y), "", "a place in the picture, 0 to 1"});
   const int column = std::min(static_cast<int>(x * picture.width), picture.width - 1);
   const int row = std::min(static_cast<int>(y * picture.height), picture.height - 1);
   const std::size_t pixel = static_cast<std::size_t>(row) * static_cast<std::size_t>(picture.width) +

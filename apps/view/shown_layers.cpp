@@ -104,8 +104,7 @@ std::vector<std::uint8_t> layer_bytes(const renderer::Picture& picture, const st
                                       const renderer::DisplayOptions& display) {
   if (name.empty()) return renderer::display_bytes(picture, display);
   const Layer* layer = picture.find(name);
-  if (layer == nullptr || name.empty())
-    throw BadOption(fmt::format("layer '{}': the picture has none of this name", name));
+  if (layer == nullptr || name.empty()) throw BadOption({"layer", name, "", "a layer of the picture"});
   const auto is = [&](Aov aov) { return name == renderer::enum_name(aov); };
   if (is(Aov::albedo)) return as_light(picture, *layer, {});
   if (is(Aov::normal)) return by_direction(*layer);

@@ -59,7 +59,7 @@ std::string viewer_of(const WebRequest& request) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_';
   };
   if (name.size() > kLongestName || !std::all_of(name.begin(), name.end(), fits))
-    throw BadOption("viewer: expected at most 40 letters, digits, '-' and '_'");
+    throw BadOption({"viewer", name, "", "at most 40 letters, digits, '-' and '_'"});
   return name.empty() ? "shared" : name;
 }
 
@@ -232,7 +232,7 @@ WebResponse ViewApi::pixel(const WebRequest& request, const std::string& viewer)
 
 WebResponse ViewApi::save(const WebRequest& request, const std::string& viewer) {
   const std::string format = parameter(request, "format");
-  if (format != "exr" && format != "png") throw BadOption("format: expected exr or png");
+  if (format != "exr" && format != "png") throw BadOption({"format", format, "", "exr or png"});
   const auto whole = source_.last_whole(viewer);
   if (!whole) return error_response(404, "there is no picture yet");
   renderer::Picture picture = whole->picture;

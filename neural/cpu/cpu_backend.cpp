@@ -287,7 +287,8 @@ StepStatistics CpuBackend::train(const TrainingBatch& batch, Team& team) {
   const std::uint64_t most =
       std::numeric_limits<std::uint32_t>::max() / std::max(4 * layout_.inputs, model_->nodes_per_point());
   if (batch.points.size > most)
-    throw BadConfiguration(fmt::format("batch: {} records, expected at most {}", batch.points.size, most));
+    throw BadConfiguration(
+        {"batch", fmt::format("{}", batch.points.size), "", fmt::format("at most {}", most)});
   const Clock::time_point start = Clock::now();
   if (steps_ == 0 && layout_.biases && options_.start_at_mean) start_output_at_mean(batch);
 

@@ -159,8 +159,8 @@ LayoutPlan solve_plan(PlanScene& scene) {
   const auto make_wanted = [&]() -> LayoutPlan {
     if (auto plan = make_plan(scene, {options.node_spacing, options.resolution_scale}, kMaxNodes))
       return std::move(*plan);
-    throw BadConfiguration(
-        "more than 2^32-1 nodes, expected fewer: a greater node spacing or a memory budget gives them");
+    throw BadConfiguration({"node-spacing", "", "it gives more than 2^32-1 nodes",
+                            "a greater one, or a limit by `cache-memory`"});
   };
   if (options.memory_budget == 0) return make_wanted();
   const std::uint64_t node_bytes = options.features * options.bytes_per_feature;
@@ -171,8 +171,8 @@ LayoutPlan solve_plan(PlanScene& scene) {
   if (found) return search.plan();
   if (options.budget_is_cap) return make_wanted();
   const LayoutPlan least = *make_plan(scene, density, std::numeric_limits<std::uint64_t>::max());
-  throw BadConfiguration(fmt::format("memory budget: {} bytes, expected at least {}", options.memory_budget,
-                                     least.node_count * node_bytes));
+  throw BadConfiguration({"cache-memory", fmt::format("{}", options.memory_budget), "bytes are too few",
+                          fmt::format("at least {}", least.node_count * node_bytes)});
 }
 
 }  // namespace gatelight::neural

@@ -18,16 +18,15 @@ constexpr double kMaxHashResolution = 1 << 20;
 constexpr std::uint64_t kMaxEntries = std::numeric_limits<std::uint32_t>::max();
 
 void check(const HashGridOptions& options) {
-  require(options.levels >= 1 && options.levels <= kMaxHashLevels, "hash grid levels", options.levels,
-          "1 to 16");
-  require(options.features >= 1 && options.features <= 16, "hash grid features", options.features, "1 to 16");
-  require(options.base_resolution >= 1 && options.base_resolution <= kMaxHashResolution,
-          "hash grid base resolution", options.base_resolution, "1 to 2^20");
-  require(std::isfinite(options.growth) && options.growth >= 1.0f, "hash grid growth", options.growth,
+  require(options.levels >= 1 && options.levels <= kMaxHashLevels, "hash-levels", options.levels, "1 to 16");
+  require(options.features >= 1 && options.features <= 16, "hash-features", options.features, "1 to 16");
+  require(options.base_resolution >= 1 && options.base_resolution <= kMaxHashResolution, "hash-base",
+          options.base_resolution, "1 to 2^20");
+  require(std::isfinite(options.growth) && options.growth >= 1.0f, "hash-growth", options.growth,
           "1 or more");
   require(options.memory_target != 0 || (options.log2_table_size >= 3 && options.log2_table_size <= 31),
-          "hash grid log2 of the table size", options.log2_table_size, "3 to 31");
-  require(options.bytes_per_feature == 2 || options.bytes_per_feature == 4, "hash grid bytes per feature",
+          "hash-log2-size", options.log2_table_size, "3 to 31");
+  require(options.bytes_per_feature == 2 || options.bytes_per_feature == 4, "bytes-per-feature",
           options.bytes_per_feature, "2 or 4");
 }
 
@@ -49,8 +48,9 @@ std::uint64_t fitting_table_size(const HashGridLayout& layout, const HashGridOpt
   const std::uint64_t limit = std::min<std::uint64_t>(options.memory_target / entry_bytes, kMaxEntries);
   if (total_entries(layout, 8) > limit)
     throw BadConfiguration(
-        fmt::format("hash grid memory target: {} bytes, expected at least {} for {} levels",
-                    options.memory_target, total_entries(layout, 8) * entry_bytes, layout.levels.size()));
+        {"cache-memory", "",
+         fmt::format("{} levels do not fit in {} bytes", layout.levels.size(), options.memory_target),
+         fmt::format("at least {}", total_entries(layout, 8) * entry_bytes)});
   std::uint64_t fits = 1, too_many = (std::uint64_t{1} << 32) / 8;  // in multiples of 8
   while (too_many - fits > 1) {
     const std::uint64_t middle = (fits + too_many) / 2;
@@ -71,7 +71,9 @@ HashGridLayout build_position_mapping(const HashGridOptions& options) {
     longest = std::max(longest, high - low);
   }
   const float inverse = 1.0f / longest;
-  require(std::isfinite(inverse) && inverse > 0.0f, "hash grid bounds' longest side", longest, "more than 0");
+  if (!std::isfinite(inverse) || inverse <= 0.0f)
+    throw BadConfiguration(
+        fmt::format("hash grid bounds: the longest side is {}, expected more than 0", longest));
   HashGridLayout layout;
   layout.bounds_min = options.bounds_min;
   layout.inverse_extent = inverse;
@@ -84,7 +86,9 @@ HashGridLayout build_hash_grid_layout(const HashGridOptions& options) {
   layout.features = options.features;
   for (std::uint32_t l = 0; l < options.levels; ++l) {
     const double scale = options.base_resolution * std::pow(static_cast<double>(options.growth), l) - 1.0;
-    require(scale < kMaxHashResolution, "hash grid finest resolution", scale + 1.0, "at most 2^20");
+    if (!(scale < kMaxHashResolution))
+      throw BadConfiguration(
+          {"hash-growth", "", fmt::format("the finest resolution is {}", scale + 1.0), "at most 2^20"});
     HashGridLevel level;
     level.scale = static_cast<float>(scale);
     level.resolution = static_cast<std::uint32_t>(std::ceil(level.scale)) + 1;
@@ -93,7 +97,8 @@ HashGridLayout build_hash_grid_layout(const HashGridOptions& options) {
   const std::uint64_t table_size = options.memory_target != 0 ? fitting_table_size(layout, options)
                                                               : std::uint64_t{1} << options.log2_table_size;
   const std::uint64_t nodes = total_entries(layout, table_size);
-  require(nodes <= kMaxEntries, "hash grid entries", static_cast<double>(nodes), "less than 2^32");
+  if (nodes > kMaxEntries)
+    throw BadConfiguration({"hash-levels", "", fmt::format("they have {} entries", nodes), "less than 2^32"});
   for (HashGridLevel& level : layout.levels) {
     const std::uint64_t side = level.resolution;
     level.entries = static_cast<std::uint32_t>(std::min(dense_entries(level), table_size));

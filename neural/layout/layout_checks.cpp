@@ -20,8 +20,8 @@ namespace {
 
 constexpr std::size_t kNotFound = std::numeric_limits<std::size_t>::max();
 
-void require_positive(const char* what, float value) {
-  require(value > 0.0f && std::isfinite(value), what, value, "a positive number");
+void require_positive(const char* option, float value) {
+  require(value > 0.0f && std::isfinite(value), option, value, "a positive number");
 }
 
 /// The first bad index below count, or kNotFound.
@@ -38,9 +38,11 @@ std::size_t find_first(std::size_t count, const Bad& bad) {
 }
 
 void check_mesh(const SurfaceMesh& mesh, std::size_t number) {
-  require(mesh.positions.size() <= kMaxIndex, "positions of a mesh", mesh.positions.size(), "at most 2^32-1");
-  require(mesh.triangles.size() <= kMaxIndex / 3, "triangles of a mesh", mesh.triangles.size(),
-          "at most (2^32-1)/3");
+  if (mesh.positions.size() > kMaxIndex || mesh.triangles.size() > kMaxIndex / 3)
+    throw BadConfiguration({"", "",
+                            fmt::format("a mesh has {} positions and {} triangles", mesh.positions.size(),
+                                        mesh.triangles.size()),
+                            "at most 2^32-1 and (2^32-1)/3"});
   const std::size_t triangle = find_first(mesh.triangles.size(), [&](std::size_t t) {
     return std::ranges::any_of(mesh.triangles[t],
                                [&](std::uint32_t v) { return v >= mesh.positions.size(); });
@@ -63,19 +65,18 @@ void check_mesh(const SurfaceMesh& mesh, std::size_t number) {
 
 void check_gate_options(const GateOptions& options) {
   require(options.features >= 1 && options.features <= 16, "features", options.features, "1 to 16");
-  require(!options.stack.empty() && options.stack.size() <= kMaxStack, "levels of the stack",
-          options.stack.size(), "1 to 4");
+  require(!options.stack.empty() && options.stack.size() <= kMaxStack, "stack", options.stack.size(),
+          "1 to 4 levels");
   for (const std::uint32_t level : options.stack)
     require(is_adaptive(level) ? adaptive_divisor(level) <= kMaxAdaptiveDivisor : level <= kMaxResolution,
-            is_adaptive(level) ? "divisor of an adaptive level" : "resolution of a level",
-            is_adaptive(level) ? adaptive_divisor(level) : level, "at most 64, 0 for adaptive");
-  require_positive("node spacing", options.node_spacing);
-  require_positive("resolution scale", options.resolution_scale);
-  require(options.fixed_resolution >= 1 && options.fixed_resolution <= kMaxResolution, "fixed resolution",
+            "stack", level_text(level), "adaptive, a resolution or a divisor of at most 64");
+  require_positive("node-spacing", options.node_spacing);
+  require_positive("resolution-scale", options.resolution_scale);
+  require(options.fixed_resolution >= 1 && options.fixed_resolution <= kMaxResolution, "resolution",
           options.fixed_resolution, "1 to 64");
-  require(options.max_resolution >= 1 && options.max_resolution <= kMaxResolution, "greatest resolution",
+  require(options.max_resolution >= 1 && options.max_resolution <= kMaxResolution, "max-resolution",
           options.max_resolution, "1 to 64");
-  require(options.bytes_per_feature == 2 || options.bytes_per_feature == 4, "bytes of a feature",
+  require(options.bytes_per_feature == 2 || options.bytes_per_feature == 4, "bytes-per-feature",
           options.bytes_per_feature, "2 or 4");
 }
 

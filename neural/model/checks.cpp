@@ -55,24 +55,23 @@ void check_batch(const Model& model, const QueryBatch& batch, std::span<const fl
 
 void check_options(const Model& model, const TrainingOptions& options) {
   const AdamOptions& adam = options.adam;
-  require(std::isfinite(adam.learning_rate) && adam.learning_rate >= 0, "learning rate", adam.learning_rate,
+  require(std::isfinite(adam.learning_rate) && adam.learning_rate >= 0, "learning-rate", adam.learning_rate,
           "0 or more");
   require(adam.beta1 >= 0 && adam.beta1 < 1, "beta1", adam.beta1, "0 to less than 1");
   require(adam.beta2 >= 0 && adam.beta2 < 1, "beta2", adam.beta2, "0 to less than 1");
   // With a smaller epsilon the factor of a step could be 0 in single precision, and a step 0 / 0.
   require(std::isfinite(adam.epsilon) && adam.epsilon >= 1e-30f, "epsilon", adam.epsilon, "1e-30 or more");
-  require(std::isfinite(adam.l2_network) && adam.l2_network >= 0, "l2 of the network", adam.l2_network,
+  require(std::isfinite(adam.l2_network) && adam.l2_network >= 0, "l2-network", adam.l2_network, "0 or more");
+  require(std::isfinite(adam.decay_steps) && adam.decay_steps >= 0, "learning-decay", adam.decay_steps,
           "0 or more");
-  require(std::isfinite(adam.decay_steps) && adam.decay_steps >= 0, "decay steps", adam.decay_steps,
-          "0 or more");
-  require(options.average.decay >= 0 && options.average.decay < 1, "decay of the average",
-          options.average.decay, "0 to less than 1");
-  require(std::isfinite(options.average.ramp) && options.average.ramp > 0, "ramp of the average",
+  require(options.average.decay >= 0 && options.average.decay < 1, "average-decay", options.average.decay,
+          "0 to less than 1");
+  require(std::isfinite(options.average.ramp) && options.average.ramp > 0, "average-ramp",
           options.average.ramp, "more than 0");
-  require(std::isfinite(options.max_target) && options.max_target > 0, "greatest target", options.max_target,
+  require(std::isfinite(options.max_target) && options.max_target > 0, "max-target", options.max_target,
           "more than 0");
   if (model.config.encoding != FeatureEncoding::gate && options.counts_triangles())
-    throw BadConfiguration("steps are to be counted per triangle, expected an encoding on triangles (gate)");
+    throw BadConfiguration({"feature-step", "", "it counts steps of triangles", "`encoding` gate"});
 }
 
 void check_state(const Model& model, const TrainingOptions& options, const ModelState& state) {
@@ -85,7 +84,7 @@ void check_state(const Model& model, const TrainingOptions& options, const Model
   check_size("node steps of the state", state.node_steps.size(), sparse ? layout.node_count : 0);
   check_size("triangle steps of the state", state.triangle_steps.size(),
              options.counts_triangles() ? model.gate.triangle_count : 0);
-  require(state.steps >> 63 == 0, "steps of the state", state.steps, "less than 2^63");
+  require(state.steps >> 63 == 0, "steps", state.steps, "less than 2^63");
 }
 
 void check_state_numbers(const ModelState& state) {

@@ -14,17 +14,16 @@ namespace gatelight::neural {
 namespace {
 
 void check_mlp(const MlpOptions& mlp) {
-  require(mlp.width == 16 || mlp.width == 32 || mlp.width == 64 || mlp.width == 128, "hidden width",
-          mlp.width, "16, 32, 64 or 128");
-  require(mlp.hidden_layers >= 1 && mlp.hidden_layers < kMaxLayers, "hidden layers", mlp.hidden_layers,
-          "1 to 5");
+  require(mlp.width == 16 || mlp.width == 32 || mlp.width == 64 || mlp.width == 128, "hidden", mlp.width,
+          "16, 32, 64 or 128");
+  require(mlp.hidden_layers >= 1 && mlp.hidden_layers < kMaxLayers, "layers", mlp.hidden_layers, "1 to 5");
   require(mlp.outputs >= 1 && mlp.outputs <= 16, "outputs", mlp.outputs, "1 to 16");
-  require(mlp.leaky_slope >= 0.0f && mlp.leaky_slope <= 1.0f, "leaky slope", mlp.leaky_slope, "0 to 1");
+  require(mlp.leaky_slope >= 0.0f && mlp.leaky_slope <= 1.0f, "leaky-slope", mlp.leaky_slope, "0 to 1");
 }
 
 void check_auxiliary(const AuxiliaryInput& input) {
   if (input.encoding == InputEncoding::one_blob)
-    require(std::has_single_bit(input.size) && input.size >= 2 && input.size <= 64, "one-blob bins",
+    require(std::has_single_bit(input.size) && input.size >= 2 && input.size <= 64, "one-blob-bins",
             input.size, "a power of two from 2 to 64");
   if (input.encoding == InputEncoding::frequency)
     require(input.size >= 1 && input.size <= 16, "frequencies", input.size, "1 to 16");
@@ -80,7 +79,7 @@ std::uint32_t Model::nodes_per_point() const {
 
 std::shared_ptr<const Model> make_model(const ModelConfig& config, const SurfaceLayout& surfaces) {
   check_mlp(config.mlp);
-  require(config.auxiliary.size() <= kMaxAuxiliaryInputs, "auxiliary inputs", config.auxiliary.size(),
+  require(config.auxiliary.size() <= kMaxAuxiliaryInputs, "auxiliary-inputs", config.auxiliary.size(),
           "at most 16");
   auto model = std::make_shared<Model>();
   model->config = config;
@@ -102,7 +101,7 @@ std::shared_ptr<const Model> make_model(const ModelConfig& config, const Surface
     check_auxiliary(input);
     layout.inputs += input_count(input);
   }
-  require(layout.inputs >= 1 && layout.inputs <= kMaxInputs, "network inputs", layout.inputs, "1 to 256");
+  require(layout.inputs >= 1 && layout.inputs <= kMaxInputs, "network-inputs", layout.inputs, "1 to 256");
 
   layout.network = std::uint64_t{layout.node_count} * layout.features;
   layout.count = layout.network;

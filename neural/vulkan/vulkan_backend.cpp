@@ -146,7 +146,8 @@ void VulkanBackend::start(const TrainingBatch& batch, Team*) {
   check_batch(*model_, batch);
   const std::uint64_t most = most_records(*model_, machine_->device().limits().longest_buffer);
   if (batch.points.size > most)
-    throw BadConfiguration(fmt::format("batch: {} records, expected at most {}", batch.points.size, most));
+    throw BadConfiguration(
+        {"batch", fmt::format("{}", batch.points.size), "", fmt::format("at most {}", most)});
   translate_errors("training", [&] {
     Submission& step = steps_[started_ % kSteps];
     if (started_ - collected_ == kSteps) collect_oldest();

@@ -28,17 +28,17 @@ std::optional<std::string> vulkan_device(const RenderOptions& options) {
   if (device == kVulkan) return "";
   if (device.starts_with(kVulkan) && device.size() > kVulkan.size() && device[kVulkan.size()] == ':')
     return std::string(device.substr(kVulkan.size() + 1));
-  throw Unavailable(fmt::format("`device` {}: expected cpu or vulkan", device));
+  throw Unavailable({"device", std::string(device), "", "cpu or vulkan"});
 }
 
-/// Rethrows Unavailable of `neural` with the name of the flag.
+/// Rethrows Unavailable of `neural` about the option.
 template <typename Function>
 auto on_device(const RenderOptions& options, Function function) {
   try {
     return function();
   } catch (const Unavailable& error) {
     if (options.cache.device == "cpu") throw Unavailable(error.what());
-    throw Unavailable(fmt::format("`device` {}: {}", options.cache.device, error.what()));
+    throw Unavailable({"device", options.cache.device, fmt::format("cannot be used: {}", error.what())});
   }
 }
 

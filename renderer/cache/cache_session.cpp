@@ -32,12 +32,12 @@ void check_options(const RenderOptions& all) {
   const CacheOptions& options = all.cache;
   if (options.source == TrainingSource::picture && !training_gives_samples(all))
     throw BadOption(
-        "training points of the picture: expected the integrator nrc with the view final, and one whole path "
-        "without other candidates at each point");
+        {"training-points", "picture", "does not go with these options",
+         "`integrator` nrc, `view` final and no `candidates`, `samples-per-point` and `train-path-length`"});
   if (static_cast<double>(options.batch) * options.samples_per_point > kMostPaths) {
-    throw BadOption(
-        fmt::format("{} samples at each of the points of a batch of {}: expected at most {} paths",
-                    options.samples_per_point, options.batch, static_cast<int>(kMostPaths)));
+    throw BadOption({"samples-per-point", fmt::format("{}", options.samples_per_point),
+                     fmt::format("is too many for a `batch` of {}", options.batch),
+                     fmt::format("at most {} paths", static_cast<int>(kMostPaths))});
   }
 }
 

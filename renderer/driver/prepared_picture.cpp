@@ -30,8 +30,8 @@ RenderOptions checked(const RenderOptions& options) {
   const auto& [x0, y0, x1, y1] = *options.region;
   if (x0 < 0 || y0 < 0 || x1 > options.width || y1 > options.height || x0 >= x1 || y0 >= y1) {
     throw BadOption(
-        fmt::format("`region` {},{},{},{}: expected x0,y0,x1,y1 within the picture of {}x{}, not empty", x0,
-                    y0, x1, y1, options.width, options.height));
+        {"region", fmt::format("{},{},{},{}", x0, y0, x1, y1), "",
+         fmt::format("x0,y0,x1,y1 within the picture of {}x{}, not empty", options.width, options.height)});
   }
   return options;
 }
@@ -118,7 +118,8 @@ PreparedPicture::PreparedPicture(const scene::Scene& scene_in, const RenderOptio
 void PreparedPicture::set_options(const RenderOptions& chosen) {
   const FlushDenormals flush;  // also on the arena's threads, which begin here
   if (chosen.threads > 0 && chosen.threads != threads)
-    throw BadOption(fmt::format("`threads` {}: expected {}, as before", chosen.threads, threads));
+    throw BadOption(
+        {"threads", fmt::format("{}", chosen.threads), "", fmt::format("{}, as before", threads)});
   choose_options(chosen);
   require_threads(threads);
   if (chosen_denoiser.library && !denoiser)

@@ -18,37 +18,32 @@
 namespace gatelight::renderer {
 namespace {
 
-void check_points(const char* name, const std::vector<int>& points, int least) {
-  if (points.empty()) throw BadOption(fmt::format("a series without {}: expected at least one", name));
+void check_points(const char* option, const std::vector<int>& points, int least) {
   const bool ascending =
       std::adjacent_find(points.begin(), points.end(), std::greater_equal()) == points.end();
-  if (points.front() < least || !ascending) {
-    throw BadOption(
-        fmt::format("a series of {} {}: expected numbers of at least {}, each greater than the last", name,
-                    fmt::join(points, ","), least));
-  }
+  if (points.empty() || points.front() < least || !ascending)
+    throw BadOption({option, fmt::format("{}", fmt::join(points, ",")), "",
+                     fmt::format("a series of numbers of at least {}, each greater than the last", least)});
 }
 
 void check_series(const Series& series, const RenderOptions& options) {
   const bool caches = uses_cache(options.integrator);
-  if (!(caches ? series.spp : series.train_steps).empty()) {
-    throw BadOption(caches ? "a series of spp: expected train_steps for nao and nrc"
-                           : "a series of train_steps: expected spp for path and ao");
-  }
-  caches ? check_points("train_steps", series.train_steps, 0) : check_points("spp", series.spp, 1);
-  const auto refuse = [](bool given, const char* what) {
-    if (given) throw BadOption(fmt::format("a series with {}: expected none", what));
+  const auto refuse = [](bool given, const char* option, const char* expected = "none") {
+    if (given) throw BadOption({option, "", "a series has none of it", expected});
   };
-  refuse(options.time_limit_seconds > 0.0, "a time limit");
-  refuse(options.max_error > 0.0, "an error at which it ends");
-  refuse(caches && options.cache.train_seconds > 0.0, "a time limit of training");
-  refuse(!options.checkpoint.file.empty(), "a checkpoint");
-  refuse(caches && !options.cache.cache_out.empty(), "a cache file to write");
+  refuse(caches && !series.spp.empty(), "spp", "`train-steps` with nao and nrc");
+  refuse(!caches && !series.train_steps.empty(), "train-steps", "`spp` with path and ao");
+  caches ? check_points("train-steps", series.train_steps, 0) : check_points("spp", series.spp, 1);
+  refuse(options.time_limit_seconds > 0.0, "time-limit");
+  refuse(options.max_error > 0.0, "max-error");
+  refuse(caches && options.cache.train_seconds > 0.0, "train-time");
+  refuse(!options.checkpoint.file.empty(), "checkpoint");
+  refuse(caches && !options.cache.cache_out.empty(), "cache-out");
   const int of_pixel = options.denoise.film_pixels_per_pixel();
   for (const int spp : series.spp) {
     if (spp % of_pixel != 0)
-      throw BadOption(fmt::format("a series of spp with {}: expected multiples of {}, with supersampling",
-                                  spp, of_pixel));
+      throw BadOption({"spp", fmt::format("{}", spp), "",
+                       fmt::format("a multiple of {}, with `supersampling`", of_pixel)});
   }
 }
 

@@ -25,8 +25,7 @@ constexpr float kSensor = 36.0f;
 Affine look_at(const LookAt& view) {
   using Eigen::Vector3d;
   const Vector3d z = view.eye.cast<double>() - view.target.cast<double>();
-  if (!(z.squaredNorm() > 0.0))
-    throw BadOption("`eye` and `target` are the same point; expected two different ones");
+  if (!(z.squaredNorm() > 0.0)) throw BadOption({"target", "", "it is the point of `eye`", "another"});
   const Vector3d back = z.normalized();
   const Vector3d up = view.up.cast<double>();
   Vector3d x = up.cross(back);
@@ -42,8 +41,7 @@ Affine look_at(const LookAt& view) {
 }
 
 std::string names_of(const scene::Scene& scene) {
-  if (scene.cameras.empty()) return "the file has no camera";
-  std::string text = "expected one of";
+  std::string text = scene.cameras.empty() ? "a file with cameras" : "one of";
   for (std::size_t i = 0; i < scene.cameras.size(); ++i) {
     const scene::Camera& camera = scene.cameras[i];
     text += fmt::format("{} {} ({}", i == 0 ? "" : ",", i, camera.name);
@@ -70,28 +68,28 @@ const scene::Camera& find_named(const scene::Scene& scene, const std::vector<sce
     const auto found = std::find_if(cameras.begin(), cameras.end(), has_name);
     if (found == cameras.end()) continue;
     if (std::find_if(found + 1, cameras.end(), has_name) != cameras.end())
-      throw BadOption(fmt::format("`camera` {}: several cameras in {} have this name; {}", name, scene.path,
-                                  names_of(scene)));
+      throw BadOption(
+          {"camera", name, fmt::format("is the name of several cameras in {}", scene.path), names_of(scene)});
     return *found;
   }
   const std::size_t index = to_number<std::size_t>(name).value_or(cameras.size());
   if (index >= cameras.size())
-    throw BadOption(fmt::format("`camera` {}: no such camera in {}; {}{}", name, scene.path, names_of(scene),
-                                meant(scene, name)));
+    throw BadOption(
+        {"camera", name, fmt::format("is no camera of {}", scene.path), names_of(scene), meant(scene, name)});
   return cameras[index];
 }
 
 /// Throws BadOption for a camera that is too far away or shows too much. `named` describes it in the message.
-void require_near(const scene::Camera& camera, float aspect, const std::string& named) {
+void require_near(const scene::Camera& camera, float aspect, const char* option, const std::string& named) {
   const Vec3 eye = camera.transform.translation();
   if (!(eye.cwiseAbs().maxCoeff() <= kFurthest)) {
-    throw BadOption(fmt::format("{} is at ({:g}, {:g}, {:g}), expected coordinates of at most {:g} m", named,
-                                eye.x(), eye.y(), eye.z(), kFurthest));
+    throw BadOption({option, "", fmt::format("{} is at ({:g}, {:g}, {:g})", named, eye.x(), eye.y(), eye.z()),
+                     fmt::format("coordinates of at most {:g} m", kFurthest)});
   }
   const float half = camera.half_height * std::max(1.0f, aspect);
   if (camera.orthographic && !(half <= kFurthest)) {
-    throw BadOption(
-        fmt::format("{} shows {:g} m to each side, expected at most {:g} m", named, half, kFurthest));
+    throw BadOption({option, "", fmt::format("{} shows {:g} m to each side", named, half),
+                     fmt::format("at most {:g} m", kFurthest)});
   }
 }
 
@@ -125,9 +123,9 @@ float distance_to_subject(const scene::Scene& scene, const CameraOptions& option
 void project(const scene::Scene& scene, const CameraOptions& options, View& view) {
   const bool has_angle = !view.orthographic && options.projection != Projection::panorama;
   if (!has_angle && (options.fov_degrees || options.focal_mm))
-    throw BadOption(fmt::format("{}: the view is {}, expected a perspective one",
-                                options.fov_degrees ? "`fov`" : "`lens`",
-                                view.orthographic ? "orthographic" : "a panorama"));
+    throw BadOption({options.fov_degrees ? "fov" : "lens", "",
+                     fmt::format("the view is {}", view.orthographic ? "orthographic" : "a panorama"),
+                     "a perspective one"});
   if (options.projection == Projection::orthographic && !view.orthographic) {
     // The subject is as large as in the perspective view.
     view.half_height = distance_to_subject(scene, options, view) * std::tan(0.5f * view.vertical_fov);
@@ -138,7 +136,7 @@ void project(const scene::Scene& scene, const CameraOptions& options, View& view
   view.panorama = options.projection == Projection::panorama;
   if (!options.view_height) return;
   if (!view.orthographic)
-    throw BadOption("`view-height`: the view is not orthographic, expected `projection` orthographic");
+    throw BadOption({"view-height", "", "the view is not orthographic", "`projection` orthographic"});
   view.half_height = 0.5f * *options.view_height;
 }
 
@@ -158,15 +156,14 @@ float focus_distance(const scene::Scene& scene, const std::string& focus, const 
       if (scene.instances[i].name == focus) box.extend(bounds_of(scene, scene.instances[i]));
     }
     if (box.isEmpty())
-      throw BadOption(fmt::format("`focus` {}: no object of {} has this name, expected one or metres", focus,
-                                  scene.path));
+      throw BadOption({"focus", focus, fmt::format("is no object of {}", scene.path), "one, or metres"});
     distance = (box.center() - view.transform.translation()).dot(-view.transform.linear().col(2));
     if (!(*distance > 0.0f))
-      throw BadOption(fmt::format("`focus` {}: it is behind the camera '{}'", focus, view.name));
+      throw BadOption({"focus", focus, fmt::format("is behind the camera '{}'", view.name)});
   }
   if (!(*distance > 0.0f && *distance <= kFurthest))
     throw BadOption(
-        fmt::format("`focus` {}: expected a node, or metres above 0 and at most {:g}", focus, kFurthest));
+        {"focus", focus, "", fmt::format("a node, or metres above 0 and at most {:g}", kFurthest)});
   return *distance;
 }
 
@@ -174,7 +171,7 @@ void set_lens(const scene::Scene& scene, const LensOptions& lens, float aspect, 
   const bool any = lens.aperture > 0.0f || lens.f_stop > 0.0f;
   if (!any) return;
   if (view.orthographic || view.panorama)
-    throw BadOption("`aperture`: the view has no lens, expected `projection` perspective");
+    throw BadOption({"aperture", "", "the view has no lens", "`projection` perspective"});
   // The focal length that shows this field of view on a sensor of 36 mm.
   const float focal = 0.5e-3f * kSensor / (std::tan(0.5f * view.vertical_fov) * std::max(1.0f, aspect));
   view.lens_radius = 0.5f * (lens.f_stop > 0.0f ? focal / lens.f_stop : lens.aperture);
@@ -202,8 +199,8 @@ View choose_camera(const scene::Scene& scene, const std::vector<scene::Camera>& 
   View view = find_camera(scene, cameras, options, fov, aspect);
   if (fov > 0.0f) view.vertical_fov = fov;
   project(scene, options, view);
-  require_near(view, aspect,
-               options.look_at ? "`eye`" : fmt::format("the camera '{}' of {}", view.name, scene.path));
+  require_near(view, aspect, options.look_at ? "eye" : "camera",
+               options.look_at ? "it" : fmt::format("'{}' of {}", view.name, scene.path));
   turn_around(scene, options, view);
   set_lens(scene, options.lens, aspect, view);
   return view;

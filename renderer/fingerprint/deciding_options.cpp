@@ -189,41 +189,23 @@ void add_background(Texts& texts, const BackgroundOptions& options) {
 // The scene's fingerprint stands for the environment, `view` for the camera, `machine` for the instruction
 // set. Cryptomattes are neither in films nor in checkpoints.
 NamedTexts deciding_options(const RenderOptions& options, const View& view, const NamedTexts& machine) {
-  [[maybe_unused]] const auto& [integrator, choose_integrator, width, height, region, spp, spp_of_paths,
-                                time_limit_seconds, max_error, max_depth, max_transmission_depth, min_depth,
-                                seed, threads, sampler, filter, filter_width, mis, direct, light_selection,
-                                glass_shadows, watertight, clamp, ao_distance, denoise, aovs, cryptomattes,
-                                light_groups, nan_policy, memory_limit_bytes, isa, camera, environment,
-                                background, cache, checkpoint] = options;
-  [[maybe_unused]] const auto& [denoiser, prefilter, supersampling, temporal, library] = denoise;
+  [[maybe_unused]] const auto& [denoiser, prefilter, supersampling, temporal, library] = options.denoise;
   std::vector<std::string> layers;
-  for (const Aov aov : aovs) layers.push_back(enum_name(aov));
+  for (const Aov aov : options.aovs) layers.push_back(enum_name(aov));
   Texts texts;
-  texts.add("integrator", integrator);
-  texts.add("size", fmt::format("{}x{}", width, height));
-  texts.add("region", region ? fmt::format("{}", fmt::join(*region, ",")) : "all");
+  texts.add("integrator", options.integrator);
+  texts.add("size", fmt::format("{}x{}", options.width, options.height));
+  texts.add("region", options.region ? fmt::format("{}", fmt::join(*options.region, ",")) : "all");
   texts.add("camera", text_of(view));
-  texts.add("max-depth", max_depth, "none");
-  texts.add("max-transmission-depth", max_transmission_depth, "none");
-  texts.add("min-depth", min_depth);
-  texts.add("seed", seed);
-  texts.add("sampler", sampler);
-  texts.add("filter", filter);
-  texts.add("filter-width", filter_width);
-  texts.add("mis", mis);
-  texts.add("direct", direct);
-  texts.add("light-selection", light_selection);
-  texts.add("glass-shadows", glass_shadows);
-  texts.add("watertight", watertight);
-  texts.add("clamp", clamp);
-  texts.add("ao-distance", ao_distance < 0.0f ? "auto" : fmt::format("{}", ao_distance));
+  add_plain_members(texts, options);
+  texts.add("ao-distance", options.ao_distance < 0.0f ? "auto" : fmt::format("{}", options.ao_distance));
   texts.add("denoiser", denoiser);
   texts.add("prefilter", prefilter);
   texts.add("supersampling", supersampling);
   texts.add("aov", fmt::format("{}", fmt::join(layers, ",")));
-  texts.add("light-groups", light_groups.empty() ? "none" : text_of(light_groups));
-  add_background(texts, background);
-  if (uses_cache(integrator)) add_cache(texts, cache);
+  texts.add("light-groups", options.light_groups.empty() ? "none" : text_of(options.light_groups));
+  add_background(texts, options.background);
+  if (uses_cache(options.integrator)) add_cache(texts, options.cache);
   NamedTexts all = texts.take();
   all.insert(all.end(), machine.begin(), machine.end());
   return all;

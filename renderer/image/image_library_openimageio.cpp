@@ -38,10 +38,10 @@ bool has(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-/// Throws BadOption, naming the flag, where the name is not one of `names`.
-void require(const std::vector<std::string>& names, const std::string& name, const std::string& flag) {
+/// Throws BadOption, about the option, where the name is not one of `names`.
+void require(const std::vector<std::string>& names, const std::string& name, const char* option) {
   if (!has(names, name))
-    throw BadOption(fmt::format("{} '{}': expected one of '{}'", flag, name, fmt::join(names, "', '")));
+    throw BadOption({option, name, "", fmt::format("one of '{}'", fmt::join(names, "', '"))});
 }
 
 std::string linear_name(const OIIO::ColorConfig& config) {
@@ -131,17 +131,17 @@ class OpenImageIO final : public ImageLibrary {
 
   void show(std::vector<float>& rgb, const OcioView& ocio) const override {
     OIIO::ColorConfig config(ocio.config);
-    if (config.has_error()) throw BadOption(fmt::format("`ocio` '{}': {}", ocio.config, config.geterror()));
+    if (config.has_error()) throw BadOption({"ocio", ocio.config, "cannot be used: " + config.geterror()});
     const auto or_default = [](const std::string& name, const char* usual) {
       return name.empty() ? std::string(usual ? usual : "") : name;
     };
     const std::string display = or_default(ocio.display, config.getDefaultDisplayName());
-    require(config.getDisplayNames(), display, "`ocio-display`");
+    require(config.getDisplayNames(), display, "ocio-display");
     const std::string view = or_default(ocio.view, config.getDefaultViewName(display));
-    require(config.getViewNames(display), view, "`ocio-view`");
+    require(config.getViewNames(display), view, "ocio-view");
     const OIIO::ColorProcessorHandle processor =
         config.createDisplayTransform(display, view, linear_name(config));
-    if (!processor) throw BadOption(fmt::format("`ocio` '{}': {}", ocio.config, config.geterror()));
+    if (!processor) throw BadOption({"ocio", ocio.config, "cannot be used: " + config.geterror()});
     const int pixels = static_cast<int>(rgb.size() / 3);
     processor->apply(rgb.data(), pixels, 1, 3, sizeof(float), 3 * sizeof(float),
                      std::size_t{3} * sizeof(float) * static_cast<std::size_t>(pixels));

@@ -28,8 +28,10 @@ class Finder {
         if (!fits) continue;
         used_[g][i] = true;
         if (found != groups_.size() && found != g)
-          refuse_light_groups(fmt::format("'{}' is in the groups '{}' and '{}', expected it in one", name,
-                                          groups_[found].name, groups_[g].name));
+          throw BadOption(
+              {"light-groups", name,
+               fmt::format("is in the groups '{}' and '{}'", groups_[found].name, groups_[g].name),
+               "it in one"});
         found = g;
       }
     }
@@ -43,10 +45,11 @@ class Finder {
         if (used_[g][i]) continue;
         const std::string& wanted = groups_[g].lights[i];
         if (wanted == kEnvironmentWord)
-          refuse_light_groups(
-              fmt::format("{}: the environment is black, expected `environment` or `sky`", groups_[g].name));
-        refuse_light_groups(fmt::format("{}: {}", groups_[g].name,
-                                        names.no_such_light(wanted, environment ? kEnvironmentWord : "")));
+          throw BadOption({"light-groups", groups_[g].name, "has the environment, which is black",
+                           "`environment` or `sky`"});
+        ErrorParts parts = names.no_such_light(wanted, environment ? kEnvironmentWord : "");
+        parts.option = "light-groups";
+        throw BadOption(parts);
       }
     }
   }

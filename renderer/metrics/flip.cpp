@@ -22,8 +22,8 @@ constexpr const char* kMeasure = "FLIP";
 flip::Filters make_checked_filters(const FlipOptions& options) {
   const double ppd = options.pixels_per_degree;
   if (!(ppd >= kMinPixelsPerDegree && ppd <= kMaxPixelsPerDegree)) {
-    throw BadOption(fmt::format("{} pixels per degree: expected {} to {}", ppd, kMinPixelsPerDegree,
-                                kMaxPixelsPerDegree));
+    throw BadOption({"pixels-per-degree", fmt::format("{}", ppd), "",
+                     fmt::format("{} to {}", kMinPixelsPerDegree, kMaxPixelsPerDegree)});
   }
   return flip::make_filters(ppd);
 }

@@ -15,6 +15,8 @@ bool is_letter(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_';
 }
 
+constexpr const char* kOption = "light-groups";
+
 }  // namespace
 
 std::string text_of(const std::vector<LightGroup>& groups) {
@@ -24,27 +26,23 @@ std::string text_of(const std::vector<LightGroup>& groups) {
   return text;
 }
 
-void refuse_light_groups(const std::string& why) {
-  throw BadOption(fmt::format("`light-groups`: {}", why));
-}
-
 void check_light_groups(const std::vector<LightGroup>& groups) {
   std::set<std::string> names;
   for (const LightGroup& group : groups) {
+    const auto refuse = [&group](const char* problem, const char* expected) {
+      throw BadOption({kOption, text_of({group}), problem, expected});
+    };
     if (group.name.empty() || !std::all_of(group.name.begin(), group.name.end(), is_letter))
-      refuse_light_groups(fmt::format("'{}' is not a name of letters, digits, '-' and '_'", group.name));
-    if (group.name == kRestGroup)
-      refuse_light_groups(fmt::format(
-          "'{}' is the group of the lights that no group names, expected another name", group.name));
-    if (!names.insert(group.name).second)
-      refuse_light_groups(fmt::format("the group '{}' is there twice, expected it once", group.name));
+      refuse("has no such name", "one of letters, digits, '-' and '_'");
+    if (group.name == kRestGroup) refuse("has the name of the lights that no group names", "another name");
+    if (!names.insert(group.name).second) refuse("is a group that is there twice", "it once");
     if (group.lights.empty() || std::any_of(group.lights.begin(), group.lights.end(),
                                             [](const std::string& light) { return light.empty(); }))
-      refuse_light_groups(
-          fmt::format("'{}={}' is not NAME=LIGHT,LIGHT", group.name, fmt::join(group.lights, ",")));
+      refuse("lacks a light", "NAME=LIGHT,LIGHT");
   }
   if (groups.size() > kMostLightGroups)
-    refuse_light_groups(fmt::format("{} groups, expected at most {}", groups.size(), kMostLightGroups));
+    throw BadOption({kOption, "", fmt::format("there are {} groups", groups.size()),
+                     fmt::format("at most {}", kMostLightGroups)});
 }
 
 }  // namespace gatelight::renderer

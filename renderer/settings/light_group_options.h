@@ -26,8 +26,6 @@ inline constexpr std::size_t kMostLightGroups = 16;
 
 /// The groups as a text: "NAME=LIGHT,LIGHT;NAME=LIGHT".
 std::string text_of(const std::vector<LightGroup>& groups);
-/// Throws BadOption with the reason.
-[[noreturn]] void refuse_light_groups(const std::string& why);
 /// Refuses unless there are at most kMostLightGroups, each with lights and a name of its own.
 void check_light_groups(const std::vector<LightGroup>& groups);
 

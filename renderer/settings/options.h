@@ -103,4 +103,29 @@ struct RenderOptions {
   CheckpointOptions checkpoint;
 };
 
+/// Adds the name and value of each plain member that decides bits to a fingerprint, which has `add`
+/// (fingerprint/deciding_options.cpp adds the others). A new member does not compile until it is named here.
+template <class Texts>
+void add_plain_members(Texts& texts, const RenderOptions& options) {
+  [[maybe_unused]] const auto& [integrator, choose_integrator, width, height, region, spp, spp_of_paths,
+                                time_limit_seconds, max_error, max_depth, max_transmission_depth, min_depth,
+                                seed, threads, sampler, filter, filter_width, mis, direct, light_selection,
+                                glass_shadows, watertight, clamp, ao_distance, denoise, aovs, cryptomattes,
+                                light_groups, nan_policy, memory_limit_bytes, isa, camera, environment,
+                                background, cache, checkpoint] = options;
+  texts.add("max-depth", max_depth, "none");
+  texts.add("max-transmission-depth", max_transmission_depth, "none");
+  texts.add("min-depth", min_depth);
+  texts.add("seed", seed);
+  texts.add("sampler", sampler);
+  texts.add("filter", filter);
+  texts.add("filter-width", filter_width);
+  texts.add("mis", mis);
+  texts.add("direct", direct);
+  texts.add("light-selection", light_selection);
+  texts.add("glass-shadows", glass_shadows);
+  texts.add("watertight", watertight);
+  texts.add("clamp", clamp);
+}
+
 }  // namespace gatelight::renderer

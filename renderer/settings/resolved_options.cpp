@@ -17,9 +17,10 @@ float resolve_ao_distance(float option, const Box& bounds) {
 void check_light_groups(const RenderOptions& options) {
   check_light_groups(options.light_groups);
   if (!options.light_groups.empty() && options.integrator != Integrator::path)
-    refuse_light_groups(
-        fmt::format("the integrator '{}' does not separate lights, expected `integrator` path",
-                    enum_name(options.integrator)));
+    throw BadOption(
+        {"light-groups", "",
+         fmt::format("the integrator '{}' does not separate lights", enum_name(options.integrator)),
+         "`integrator` path"});
 }
 
 bool training_gives_samples(const RenderOptions& options) {

@@ -277,7 +277,7 @@ Accel::Accel(const scene::Scene& scene, const Coverage& coverage, const AccelOpt
   State& state = *state_;
   if (!has_isa(options.isa)) {
     throw Unavailable(
-        fmt::format("`isa` {}: this processor does not have it; its best is {}", options.isa, best_isa()));
+        {"isa", options.isa, "is more than this processor has", fmt::format("at most {}", best_isa())});
   }
   isa_ = options.isa == "auto" ? best_isa() : options.isa;
   std::string config = fmt::format("threads={}", options.threads);

@@ -30,14 +30,12 @@ std::vector<std::uint8_t> find_catchers(const scene::Scene& scene, const Backgro
   if (node.empty()) return {};
   if (!background.is_separate())
     throw BadOption(
-        fmt::format("`shadow-catcher` {}: the picture has no alpha, expected `background` transparent, "
-                    "r,g,b or FILE",
-                    node));
+        {"shadow-catcher", node, "needs a picture with alpha", "`background` transparent, r,g,b or FILE"});
   std::vector<std::uint8_t> catchers;
   for (const scene::Instance& instance : scene.instances) catchers.push_back(instance.name == node ? 1 : 0);
   if (std::find(catchers.begin(), catchers.end(), 1) == catchers.end()) {
-    throw BadOption(fmt::format("`shadow-catcher` {}: no object of {} has this name; expected one of '{}'",
-                                node, scene.path, fmt::join(names_of(scene), "', '")));
+    throw BadOption({"shadow-catcher", node, fmt::format("is no object of {}", scene.path),
+                     fmt::format("one of '{}'", fmt::join(names_of(scene), "', '"))});
   }
   return catchers;
 }

@@ -315,7 +315,7 @@ struct SceneFile::Implementation {
     if (options.time) check_time(*options.time);
     if (!(options.shutter >= 0.0) || !std::isfinite(options.shutter))
       throw BadOption(
-          fmt::format("`shutter` {}: expected a finite number of seconds, not below 0", options.shutter));
+          {"shutter", fmt::format("{}", options.shutter), "", "a finite number of seconds, not below 0"});
     if (threads <= 0) threads = available_threads();
     require_threads(threads);
     run([&] { loader.emplace(path, options); });
@@ -323,7 +323,7 @@ struct SceneFile::Implementation {
 
   static void check_time(double time) {
     if (!std::isfinite(time))
-      throw BadOption(fmt::format("`time` {}: expected a finite number of seconds", time));
+      throw BadOption({"time", fmt::format("{}", time), "", "a finite number of seconds"});
   }
 
   template <typename Work>

@@ -58,7 +58,7 @@ TEST_F(CompareCommand, MetricsAreChosenByName) {
   EXPECT_TRUE(result["psnr"].is_null()) << "JSON has no infinity";
   EXPECT_FALSE(result.contains("mse"));
   const Output unknown = run_gatelight({"compare", reference, reference, "--metric", "lpips"});
-  expect_failure(unknown, 1, {"lpips", "--metric", "mse|rel_mse|psnr|mean|max|ssim|flip|hdr_flip"});
+  expect_failure(unknown, 1, {"lpips", "metric", "mse|rel_mse|psnr|mean|max|ssim|flip|hdr_flip"});
 }
 
 TEST_F(CompareCommand, FlipIsPrintedAndWrittenWithItsQuartiles) {

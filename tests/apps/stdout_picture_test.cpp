@@ -71,7 +71,7 @@ TEST_F(StdoutPicture, AClosedOrFullStdoutIsOneLine) {
                                           "24x16",  "--spp", "1",  "--quiet"};
   expect_failure(run_gatelight(words, [] { close(STDOUT_FILENO); }), 3, {"'-'", "closed"});
   const Output full = run_gatelight(words, [] { dup2(open("/dev/full", O_WRONLY), STDOUT_FILENO); });
-  expect_failure_names(full, 3, {"stdout"});
+  expect_failure(full, 3, {"stdout"});
 }
 
 TEST_F(StdoutPicture, ATerminalIsRefusedBeforeTheWork) {

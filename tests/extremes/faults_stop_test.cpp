@@ -29,7 +29,7 @@ TEST_F(Stopped, TerminationDuringTrainingKeepsPictureAndCheckpoint) {
   const Output output = process.finish();
   EXPECT_EQ(output.exit_code, 143) << output.err;
   EXPECT_FALSE(output.killed);
-  expect_names(output.last_error_line(), {"3000", "--resume"});
+  expect_message(output.last_error_line(), {"3000", "--resume"});
   EXPECT_EQ(renderer::read_image(path("killed.exr")).width, 48);
   EXPECT_EQ(folder.count_files(), 3u) << "a temporary file is left";
   EXPECT_EQ(run_gatelight(learning("killed.exr", keeps)).exit_code, 0);

@@ -76,7 +76,7 @@ TEST(ExtremeLayouts, BudgetsFromOneByteToTheGreatestNumberAreKeptOrRefused) {
   }
   options.memory_budget = 1;
   const std::string refused = refusal_of(surfaces->layout(), options);
-  tests::expect_message(refused, {"memory budget", "1"});
+  tests::expect_message(refused, {"cache-memory", "1"});
   report_extreme("memory budgets", "2^12 to 2^64 - 1 bytes", fmt::format("{} of {} kept", fitted, 4),
                  fmt::format("1 byte: \"{}\"", refused));
 }

@@ -37,7 +37,7 @@ template <class Act>
 void settle(const Act& act) {
   try {
     act();
-  } catch (const apps::UsageError& error) {
+  } catch (const BadOption& error) {
     check_line(apps::one_line(error.what()));
   }
 }

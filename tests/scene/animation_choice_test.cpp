@@ -1,5 +1,6 @@
 // Which animations of a file its scene shows, and which of their flaws matter.
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -77,7 +78,8 @@ TEST(AnimationChoice, ATimeWithoutAnimationsGivesAWarning) {
 
 TEST(AnimationChoice, ATimeThatIsNoNumberIsRefused) {
   for (const double time : {static_cast<double>(kNan), std::numeric_limits<double>::infinity()})
-    tests::expect_refusal<BadOption>([&] { load_gltf("a.glb", {.time = time}); }, {"`time`"});
+    tests::expect_refused_parts<BadOption>([&] { load_gltf("a.glb", {.time = time}); },
+                                           {"time", fmt::format("{}", time)});
 }
 
 struct Flaw {

@@ -19,7 +19,7 @@ bool loads_or_refuses(const std::filesystem::path& path, const std::string& what
     return true;
   } catch (const InputError& e) {
     const testing::ScopedTrace trace(__FILE__, __LINE__, what);
-    tests::expect_names(e.what(), {path.filename().string()});
+    tests::expect_message(e.what(), {path.filename().string()});
   } catch (const std::exception& e) {
     ADD_FAILURE() << what << ": " << e.what();
   }

@@ -8,8 +8,8 @@ namespace gatelight::scene {
 namespace {
 
 using ::testing::ElementsAre;
+using tests::expect_message;
 using tests::expect_messages;
-using tests::expect_names;
 
 /// 2x2: red, half-transparent green (0, 200, 0, 128); transparent (10, 20, 30, 0), (1, 2, 3, 64).
 const char* const kRgba =
@@ -133,7 +133,7 @@ TEST(Images, DamageIsRefusedInSilence) {
     testing::internal::CaptureStderr();
     const std::string message = file.refused();
     // libpng 1.6.48 does not read the checksum of the end, behind all pixels.
-    if (!message.empty() || at + 4 < kGrey.size()) expect_names(message, {"images[0]"});
+    if (!message.empty() || at + 4 < kGrey.size()) expect_message(message, {"images[0]"});
     EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
   }
 }

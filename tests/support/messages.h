@@ -1,6 +1,6 @@
 #pragma once
-// Checks of an error or a warning: its type, one line, and the names and values in it. The wording is
-// recorded with the test's results; house.messages compares it with golden/messages.txt.
+// Checks of an error or a warning: its type, one line, and the names and values in it; of an error about an
+// option its parts.
 
 #include <gtest/gtest.h>
 
@@ -10,6 +10,8 @@
 #include <string_view>
 #include <typeinfo>
 #include <vector>
+
+#include "base/errors.h"
 
 namespace gatelight::tests {
 
@@ -43,21 +45,13 @@ inline bool has_name(std::string_view text, std::string_view name) {
   return false;
 }
 
-/// Expects one line that has all the names in it. For texts of libraries and the platform, whose wording is
-/// not ours.
-inline void expect_names(const std::string& message, const NameList& names, Place place = Place::current()) {
+/// Expects one line that has all the names in it.
+inline void expect_message(const std::string& message, const NameList& names,
+                           Place place = Place::current()) {
   const ::testing::ScopedTrace trace(place.file, place.line, "message: " + message);
   EXPECT_NE(message, "") << "expected a message";
   EXPECT_EQ(message.find('\n'), std::string::npos) << "expected one line";
   for (const std::string& name : names) EXPECT_TRUE(has_name(message, name)) << "expected '" << name << "'";
-}
-
-/// Like expect_names(), and the wording is recorded.
-inline void expect_message(const std::string& message, const NameList& names,
-                           Place place = Place::current()) {
-  expect_names(message, names, place);
-  const ::testing::TestResult* result = ::testing::UnitTest::GetInstance()->current_test_info()->result();
-  ::testing::Test::RecordProperty("message" + std::to_string(result->test_property_count()), message);
 }
 
 /// Expects as many messages as lists of names, in this order.
@@ -78,6 +72,36 @@ std::string refusal(const Act& act) {
     return error.what();
   }
   return "";
+}
+
+/// The parts of the error of `act`, which throws exactly an `Error`; empty where it throws nothing.
+template <typename Error, typename Act>
+ErrorParts refused_parts(const Act& act) {
+  ErrorParts parts;
+  refusal<Error>([&] {
+    try {
+      act();
+    } catch (const gatelight::Error& error) {
+      parts = error.parts();
+      throw;
+    }
+  });
+  return parts;
+}
+
+/// Expects this option and value, and these words in the problem and in what was expected.
+inline void expect_parts(const ErrorParts& parts, const ErrorParts& wanted, Place place = Place::current()) {
+  const ::testing::ScopedTrace trace(place.file, place.line, "error: " + sentence(parts));
+  EXPECT_EQ(parts.option, wanted.option);
+  EXPECT_EQ(parts.value, wanted.value);
+  EXPECT_TRUE(wanted.problem.empty() || has_name(parts.problem, wanted.problem)) << wanted.problem;
+  EXPECT_TRUE(wanted.expected.empty() || has_name(parts.expected, wanted.expected)) << wanted.expected;
+  EXPECT_TRUE(wanted.hint.empty() || has_name(parts.hint, wanted.hint)) << wanted.hint;
+}
+
+template <typename Error, typename Act>
+void expect_refused_parts(const Act& act, const ErrorParts& wanted, Place place = Place::current()) {
+  expect_parts(refused_parts<Error>(act), wanted, place);
 }
 
 template <typename Error, typename Act>

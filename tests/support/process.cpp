@@ -134,18 +134,13 @@ Output run_gatelight(const std::vector<std::string>& arguments, const std::funct
   return Process(arguments, prepare).finish();
 }
 
-void expect_failure_names(const Output& output, int exit_code, const NameList& names, Place place) {
+void expect_failure(const Output& output, int exit_code, const NameList& names, Place place) {
   const ::testing::ScopedTrace trace(place.file, place.line, "stderr: " + output.err);
   EXPECT_EQ(output.exit_code, exit_code);
   EXPECT_FALSE(output.killed);
   EXPECT_EQ(output.error_lines().size(), 1u);
   EXPECT_EQ(output.last_error_line().rfind("gatelight: error: ", 0), 0u);
-  expect_names(output.last_error_line(), names, place);
-}
-
-void expect_failure(const Output& output, int exit_code, const NameList& names, Place place) {
-  expect_failure_names(output, exit_code, names, place);
-  expect_message(output.last_error_line(), {}, place);
+  expect_message(output.last_error_line(), names, place);
 }
 
 }  // namespace gatelight::tests

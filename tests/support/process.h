@@ -56,11 +56,7 @@ Output run_gatelight_inside(const std::vector<std::string>& arguments);
 Output run_gatelight(const std::vector<std::string>& arguments, const std::function<void()>& prepare = {});
 
 /// Expects that it ended by itself with this code, and that stderr is one line, an error that has all the
-/// names in it. For errors that depend on the platform.
-void expect_failure_names(const Output& output, int exit_code, const NameList& names,
-                          Place place = Place::current());
-
-/// Like expect_failure_names(), and the wording is recorded.
+/// names in it.
 void expect_failure(const Output& output, int exit_code, const NameList& names,
                     Place place = Place::current());
 

@@ -32,10 +32,7 @@ __all__ = [
     "Texture", "compare", "denoise", "frames", "load", "options", "read", "render", "sample_points",
 ]
 
-_LOADING = (
-    "scene_index", "variant", "time", "animation", "show_hidden", "backfaces", "lights", "ies", "missing",
-    "allow_external", "ignore_required",
-)
+_LOADING = [name for name, option in _gatelight.options().items() if option["loading"]]
 
 
 def _use_installed_denoiser():
@@ -100,7 +97,8 @@ def denoise(color, albedo=None, normal=None, **options):
 
     color   a Picture (its layers guide the denoiser), a path, or an array (h, w, 3) of linear radiance
     albedo  (h, w, 3), 0 to 1, with normal (h, w, 3), -1 to 1; or both None
-    Options: prefilter ("accurate", "none", "fast"), oidn, threads, memory_limit.
+    Options: prefilter ("accurate", "none", "fast"), background, filter, filter_width (by which supersampling is scaled),
+    oidn, threads, memory_limit.
     """
     return _gatelight.denoise(color, albedo, normal, **options)
 

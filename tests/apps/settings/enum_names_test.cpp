@@ -35,7 +35,7 @@ TYPED_TEST(Words, EachEnumeratorHasANameThatIsParsedBack) {
   std::size_t i = 0;
   for (const Choice<TypeParam>& choice : kTable) {
     EXPECT_EQ(static_cast<std::size_t>(choice.value), i++) << choice.name;
-    EXPECT_EQ(parse_choice("--flag", enum_name(choice.value), kTable), choice.value);
+    EXPECT_EQ(parse_choice("flag", enum_name(choice.value), kTable), choice.value);
   }
   EXPECT_FALSE(is_enumerator<static_cast<TypeParam>(std::size(kTable))>()) << "an enumerator has no name";
   EXPECT_TRUE(is_enumerator<static_cast<TypeParam>(std::size(kTable) - 1)>());

@@ -11,10 +11,12 @@ namespace gatelight::apps {
 namespace {
 
 using ::testing::ElementsAre;
-using tests::expect_refusal;
+using tests::expect_parts;
+using tests::expect_refused_parts;
+using tests::refused_parts;
 
 std::vector<int> numbers(const std::string& text) {
-  return parse_frames("--frames", text).numbers();
+  return parse_frames("frames", text).numbers();
 }
 
 TEST(FrameRange, ReadsFirstLastAndStep) {
@@ -33,21 +35,21 @@ TEST(FrameList, ReadsFramesAsPeopleWriteThem) {
   EXPECT_THAT(numbers("-3--1,0-0"), ElementsAre(-3, -2, -1, 0));
   EXPECT_THAT(numbers("2,1,2,1:3"), ElementsAre(2, 1, 3)) << "each once, at its first place";
   for (const char* text : {"-2:5:3", "7", "1,3,5-9", "-3--1,9:4:-2"})
-    EXPECT_EQ(numbers(text_of(parse_frames("--frames", text))), numbers(text)) << text;
-  EXPECT_EQ(text_of(parse_frames("--frames", "-2:5:3,7")), "-2:5:3,7:7");
-  EXPECT_TRUE(parse_frames("--frames", "4,4:4,4:9:7").is_single());
-  EXPECT_FALSE(parse_frames("--frames", "4,5").is_single());
+    EXPECT_EQ(numbers(text_of(parse_frames("frames", text))), numbers(text)) << text;
+  EXPECT_EQ(text_of(parse_frames("frames", "-2:5:3,7")), "-2:5:3,7:7");
+  EXPECT_TRUE(parse_frames("frames", "4,4:4,4:9:7").is_single());
+  EXPECT_FALSE(parse_frames("frames", "4,5").is_single());
   EXPECT_EQ(common_step(numbers("9:1:-4")), -4);
   EXPECT_EQ(common_step(numbers("1,3,5")), 2);
   EXPECT_EQ(common_step(numbers("1,3,6")), 1);
 }
 
 TEST(FrameList, HasFramesPerSecondAsAFraction) {
-  EXPECT_EQ(parse_fps("--fps", "25"), 25.0);
-  EXPECT_EQ(parse_fps("--fps", "30000/1001"), 30000.0 / 1001.0);
+  EXPECT_EQ(parse_fps("fps", "25"), 25.0);
+  EXPECT_EQ(parse_fps("fps", "30000/1001"), 30000.0 / 1001.0);
   for (const char* text : {"", "/", "30/", "/1001", "30/0", "0/0", "30000/1001/2", "-30/1", "30/-1", "0",
                            "1e9", "inf", "inf/1", "1/inf", "nan/1"})
-    expect_refusal<BadOption>([&] { parse_fps("--fps", text); }, {"--fps"});
+    expect_refused_parts<BadOption>([&] { parse_fps("fps", text); }, {"fps", text});
 }
 
 TEST(FrameRange, RefusesOthersByName) {
@@ -56,7 +58,7 @@ TEST(FrameRange, RefusesOthersByName) {
                            "0:5:-1",  "0:1000000", "99999999999", "0:3 ",
                            "1,",      ",1",        "1,,3",        "1;3",
                            "5-",      "1-3-5",     "1,9-5",       "0:600000,0:600000"})
-    expect_refusal<BadOption>([&] { parse_frames("--frames", text); }, {"--frames"});
+    EXPECT_EQ(refused_parts<BadOption>([&] { parse_frames("frames", text); }).option, "frames") << text;
 }
 
 TEST(FrameNames, HaveThePlaceOfTheNumber) {
@@ -82,22 +84,22 @@ TEST(FrameFlags, ExcludeWhatHasNoMeaningWithThem) {
   const auto refused = [](std::initializer_list<const char*> flags) {
     return refused_flags({flags.begin(), flags.end()});
   };
-  tests::expect_message(refused({"--fps", "25"}), {"--fps", "--frames"});
-  tests::expect_message(refused({"--frames", "0:3", "--time", "1"}), {"--time", "--frames"});
-  tests::expect_message(refused({"--frames", "0:3"}), {"--output", "%04d"});
-  tests::expect_message(refused({"--frames", "4", "--camera", "all"}), {"--output", "{camera}"});
+  expect_parts(refused({"--fps", "25"}), {"fps", "", "no frames", "`frames`"});
+  expect_parts(refused({"--frames", "0:3", "--time", "1"}), {"time", "", "excludes `frames`"});
+  expect_parts(refused({"--frames", "0:3"}), {"output", "a.exr", "all frames", "%04d"});
+  expect_parts(refused({"--frames", "4", "--camera", "all"}), {"output", "a.exr", "all cameras", "{camera}"});
   const auto groups = [&](std::initializer_list<const char*> flags) {
     std::vector<const char*> all = {"--turntable", "4", "--frame-groups", "3"};
     all.insert(all.end(), flags);
     return refused_flags({all.begin(), all.end()});
   };
-  tests::expect_message(refused({"--frame-groups", "2"}), {"--frame-groups", "--frames"});
-  tests::expect_message(refused({"--frames", "4", "--frame-groups", "2"}), {"--frame-groups", "2", "1"});
-  tests::expect_message(groups({"--integrator", "nrc"}), {"--frame-groups", "nrc", "depend"});
-  tests::expect_message(groups({"--denoiser", "auto"}), {"--frame-groups", "--temporal"});
-  tests::expect_message(groups({"--checkpoint", "state"}), {"--frame-groups", "--checkpoint"});
-  EXPECT_THAT(groups({"--denoiser", "auto", "--temporal", "off"}), ::testing::StartsWith("--output"));
-  EXPECT_EQ(refused({"--frames", "4"}), "") << "one frame needs no pattern";
+  expect_parts(refused({"--frame-groups", "2"}), {"frame-groups", "", "no frames", "`frames`"});
+  expect_parts(refused({"--frames", "4", "--frame-groups", "2"}), {"frame-groups", "", "fewer", "1"});
+  expect_parts(groups({"--integrator", "nrc"}), {"frame-groups", "", "'nrc'", "`integrator`"});
+  expect_parts(groups({"--denoiser", "auto"}), {"frame-groups", "", "denoised", "`temporal` off"});
+  expect_parts(groups({"--checkpoint", "state"}), {"frame-groups", "", "checkpoint", "no `checkpoint`"});
+  EXPECT_EQ(groups({"--denoiser", "auto", "--temporal", "off"}).option, "output");
+  EXPECT_EQ(refused({"--frames", "4"}).option, "") << "one frame needs no pattern";
   EXPECT_EQ(read_flags({"--turntable", "1"}).load.time, 0.0);
   EXPECT_EQ(read_flags({"--frames", "12:12", "--fps", "24"}).load.time, 0.0) << "the film's first frame";
 }

@@ -13,7 +13,9 @@ namespace {
 
 using namespace renderer;
 
-using tests::expect_refusal;
+using tests::expect_refused_parts;
+
+constexpr const char* kName = "light-groups";
 
 TEST(LightGroupOptions, AreReadAndWritten) {
   const std::string text = "key=Sun,Lamp*;sky-2_b=environment;odd=a=b, c";
@@ -25,23 +27,23 @@ TEST(LightGroupOptions, AreReadAndWritten) {
 }
 
 TEST(LightGroupOptions, BadOnesAreRefused) {
-  const auto refuse = [](const std::string& text, const tests::NameList& names) {
-    expect_refusal<BadOption>([&] { read_light_groups(text); }, names);
+  const auto refuse = [](const std::string& text, const ErrorParts& wanted) {
+    expect_refused_parts<BadOption>([&] { read_light_groups(text); }, wanted);
   };
-  refuse("", {"`light-groups`", "''", "NAME=LIGHT"});
-  refuse("key", {"`light-groups`", "'key'", "NAME=LIGHT"});
-  refuse("key=Sun;", {"`light-groups`", "''", "NAME=LIGHT"});
-  refuse("key=", {"`light-groups`", "'key='", "NAME=LIGHT"});
-  refuse("key=a,,b", {"`light-groups`", "'key=a,,b'", "NAME=LIGHT"});
-  refuse("=Sun", {"`light-groups`", "''", "letters"});
-  refuse("key light=Sun", {"`light-groups`", "'key light'", "letters", "digits"});
-  refuse("key.R=Sun", {"`light-groups`", "'key.R'", "letters"});
-  refuse("key=Sun;key=Lamp", {"`light-groups`", "'key'", "twice"});
-  refuse("rest=Sun", {"`light-groups`", "'rest'", "another"});
+  refuse("", {kName, "", "", "NAME=LIGHT"});
+  refuse("key", {kName, "key", "", "NAME=LIGHT"});
+  refuse("key=Sun;", {kName, "", "", "NAME=LIGHT"});
+  refuse("key=", {kName, "key=", "lacks", "NAME=LIGHT"});
+  refuse("key=a,,b", {kName, "key=a,,b", "lacks", "NAME=LIGHT"});
+  refuse("=Sun", {kName, "=Sun", "", "letters"});
+  refuse("key light=Sun", {kName, "key light=Sun", "", "letters, digits"});
+  refuse("key.R=Sun", {kName, "key.R=Sun", "", "letters"});
+  refuse("key=Sun;key=Lamp", {kName, "key=Lamp", "twice", "once"});
+  refuse("rest=Sun", {kName, "rest=Sun", "", "another"});
   std::string many = "a0=x";
   for (int i = 1; i < 16; ++i) many += ";a" + std::to_string(i) + "=x";
   EXPECT_EQ(read_light_groups(many).size(), 16u);
-  refuse(many + ";b=x", {"`light-groups`", "17", "16"});
+  refuse(many + ";b=x", {kName, "", "17", "16"});
 }
 
 TEST(LightGroupOptions, AreOnlyForThePathTracer) {
@@ -49,12 +51,12 @@ TEST(LightGroupOptions, AreOnlyForThePathTracer) {
   options.integrator = Integrator::nrc;
   check_light_groups(options);
   options.light_groups = {{"a", {"b"}}};
-  expect_refusal<BadOption>([&] { check_light_groups(options); },
-                            {"`light-groups`", "nrc", "`integrator` path"});
+  expect_refused_parts<BadOption>([&] { check_light_groups(options); },
+                                  {kName, "", "'nrc'", "`integrator` path"});
   options.integrator = Integrator::path;
   check_light_groups(options);
   options.light_groups = {{"a b", {"b"}}};
-  expect_refusal<BadOption>([&] { check_light_groups(options); }, {"'a b'"});
+  expect_refused_parts<BadOption>([&] { check_light_groups(options); }, {kName, "a b=b", "", "letters"});
 }
 
 }  // namespace

@@ -52,17 +52,17 @@ inline renderer::CacheOptions read_cache(const Words& words) {
   return read_flags(with_cache(words)).render.cache;
 }
 
-inline std::string refused_flags(const Words& words) {
-  return tests::refusal<UsageError>([&] { read_flags(words); });
+inline ErrorParts refused_flags(const Words& words) {
+  return tests::refused_parts<BadOption>([&] { read_flags(words); });
 }
 
-inline std::set<std::string> cache_flags() {
+inline std::set<std::string> cache_names() {
   RenderSettings settings;
-  std::set<std::string> flags;
+  std::set<std::string> names;
   for (const Option& option : option_table(settings)) {
-    if (option.of_cache) flags.insert(option.flag());
+    if (option.of_cache) names.insert(option.name);
   }
-  return flags;
+  return names;
 }
 
 }  // namespace gatelight::apps

@@ -16,33 +16,36 @@
 namespace gatelight::apps {
 namespace {
 
-using tests::expect_message;
+using tests::expect_parts;
 using tests::TemporaryFolder;
 
 TEST(RefusedFlags, CacheFlagsAreRefusedWithoutACache) {
-  EXPECT_GT(cache_flags().size(), 40u);
-  for (const char* flag : {"--cache-in", "--cache-out", "--train-steps", "--device", "--cache-memory"}) {
-    EXPECT_TRUE(cache_flags().contains(flag)) << flag;
+  EXPECT_GT(cache_names().size(), 40u);
+  for (const char* name : {"cache-in", "cache-out", "train-steps", "device", "cache-memory"}) {
+    EXPECT_TRUE(cache_names().contains(name)) << name;
   }
-  for (const char* flag : {"--spp", "--integrator", "--isa", "--checkpoint"}) {
-    EXPECT_FALSE(cache_flags().contains(flag)) << flag;
+  for (const char* name : {"spp", "integrator", "isa", "checkpoint"}) {
+    EXPECT_FALSE(cache_names().contains(name)) << name;
   }
-  expect_message(refused_flags({"--batch", "100"}), {"--batch", "path", "nao", "nrc"});
-  expect_message(refused_flags({"--integrator", "ao", "--cache-in", "c"}), {"--cache-in", "ao"});
-  expect_message(refused_flags({"--aov", "albedo,training-count"}), {"--aov", "training-count", "path"});
+  expect_parts(refused_flags({"--batch", "100"}), {"batch", "", "'path'", "`integrator` nao or nrc"});
+  expect_parts(refused_flags({"--integrator", "ao", "--cache-in", "c"}),
+               {"cache-in", "", "'ao'", "`integrator`"});
+  expect_parts(refused_flags({"--aov", "albedo,training-count"}),
+               {"aov", "training-count", "'path'", "`integrator`"});
 }
 
 TEST(RefusedFlags, FlagsOfAnotherEncodingOrRuleAreRefused) {
-  expect_message(refused_flags(with_cache({"--hash-levels", "4"})), {"--hash-levels", "--encoding hashgrid"});
-  expect_message(refused_flags(with_cache({"--encoding", "hashgrid", "--stack", "1"})),
-                 {"--stack", "--encoding gate"});
-  expect_message(refused_flags(with_cache({"--resolution-scale", "2"})),
-                 {"--resolution-scale", "--resolution paper"});
-  expect_message(refused_flags(with_cache({"--resolution", "paper", "--node-spacing", "2"})),
-                 {"--node-spacing", "--resolution uniform"});
-  expect_message(refused_flags(with_cache({"--encoding", "hashgrid", "--candidates", "4"})),
-                 {"--candidates", "--encoding gate"});
-  EXPECT_EQ(refused_flags(with_cache({"--encoding", "hashgrid", "--candidates", "1"})), "");
+  expect_parts(refused_flags(with_cache({"--hash-levels", "4"})),
+               {"hash-levels", "", "", "`encoding` hashgrid"});
+  expect_parts(refused_flags(with_cache({"--encoding", "hashgrid", "--stack", "1"})),
+               {"stack", "", "", "`encoding` gate"});
+  expect_parts(refused_flags(with_cache({"--resolution-scale", "2"})),
+               {"resolution-scale", "", "", "`resolution` paper"});
+  expect_parts(refused_flags(with_cache({"--resolution", "paper", "--node-spacing", "2"})),
+               {"node-spacing", "", "", "`resolution` uniform"});
+  expect_parts(refused_flags(with_cache({"--encoding", "hashgrid", "--candidates", "4"})),
+               {"candidates", "", "", "`encoding` gate"});
+  EXPECT_EQ(refused_flags(with_cache({"--encoding", "hashgrid", "--candidates", "1"})).option, "");
   // A preset's values are not flags.
   const RenderSettings preset = read_flags({"--preset", "paper-nrc", "--encoding", "hashgrid"});
   EXPECT_EQ(preset.render.cache.training.feature_step, neural::FeatureStep::per_node);
@@ -51,8 +54,8 @@ TEST(RefusedFlags, FlagsOfAnotherEncodingOrRuleAreRefused) {
 }
 
 TEST(RefusedFlags, AnAnimationNeedsATime) {
-  expect_message(refused_flags({"--animation", "walk"}), {"--animation", "--time"});
-  EXPECT_EQ(refused_flags({"--animation", "walk", "--time", "0"}), "");
+  expect_parts(refused_flags({"--animation", "walk"}), {"animation", "", "", "`time`"});
+  EXPECT_EQ(refused_flags({"--animation", "walk", "--time", "0"}).option, "");
   EXPECT_EQ(read_flags({"--time", "-2.5"}).load.time, -2.5);
   EXPECT_FALSE(read_flags({}).load.time);
 }
@@ -75,24 +78,25 @@ TEST(RefusedFlags, RadianceFlagsAreRefusedWithOcclusion) {
   for (Words words : cases) {
     const std::string flag = words.front();
     words.insert(words.begin(), {"--integrator", "nao"});
-    expect_message(refused_flags(words), {flag, "--integrator nrc"});
+    expect_parts(refused_flags(words), {flag.substr(2), "", "", "`integrator` nrc"});
     EXPECT_FALSE(resolved_options(read_flags({"--integrator", "nao"})).contains(flag.substr(2))) << flag;
   }
-  EXPECT_EQ(refused_flags({"--integrator", "nao", "--encoding", "hashgrid", "--albedo-input", "on"}), "");
+  EXPECT_EQ(refused_flags({"--integrator", "nao", "--encoding", "hashgrid", "--albedo-input", "on"}).option,
+            "");
 }
 
 TEST(RefusedFlags, FlagsWithoutEffectBesideOthersAreRefused) {
-  expect_message(refused_flags(with_cache({"--spread-threshold", "0.5"})),
-                 {"--spread-threshold", "--query-at spread"});
+  expect_parts(refused_flags(with_cache({"--spread-threshold", "0.5"})),
+               {"spread-threshold", "", "", "`query-at` spread"});
   for (const char* flag :
        {"--self-training-vertices", "--self-training-full", "--self-training-attenuation"}) {
-    expect_message(refused_flags(with_cache({"--self-training", "off", flag, "1"})),
-                   {flag, "--self-training STEP"});
-    EXPECT_EQ(refused_flags(with_cache({"--self-training", "0", flag, "1"})), "");
+    expect_parts(refused_flags(with_cache({"--self-training", "off", flag, "1"})),
+                 {flag + 2, "", "", "`self-training` STEP"});
+    EXPECT_EQ(refused_flags(with_cache({"--self-training", "0", flag, "1"})).option, "");
   }
   for (const char* place : {"gather", "spread"}) {
-    expect_message(refused_flags(with_cache({"--view", "cache", "--query-at", place})),
-                   {"--query-at", "--view final"});
+    expect_parts(refused_flags(with_cache({"--view", "cache", "--query-at", place})),
+                 {"query-at", "", "", "`view` final"});
   }
   // The settings say where the bare answer is queried.
   EXPECT_EQ(read_cache({"--view", "cache"}).query_at, renderer::QueryAt::primary);
@@ -100,17 +104,17 @@ TEST(RefusedFlags, FlagsWithoutEffectBesideOthersAreRefused) {
 }
 
 TEST(RefusedFlags, LayersThatWouldBeBlackAreRefused) {
-  expect_message(refused_flags({"--integrator", "nao", "--aov", "cache-error"}),
-                 {"--aov", "cache-error", "--integrator nrc"});
+  expect_parts(refused_flags({"--integrator", "nao", "--aov", "cache-error"}),
+               {"aov", "cache-error", "'nao'", "`integrator` nrc"});
   for (const char* layer : {"training-count", "resolution", "nearest-node"}) {
-    expect_message(refused_flags(with_cache({"--encoding", "hashgrid", "--aov", layer})),
-                   {"--aov", layer, "--encoding gate"});
+    expect_parts(refused_flags(with_cache({"--encoding", "hashgrid", "--aov", layer})),
+                 {"aov", layer, "hashgrid", "`encoding` gate"});
   }
 }
 
 TEST(RefusedFlags, CheckpointFlagsNeedAFile) {
-  expect_message(refused_flags({"--resume"}), {"--resume", "--checkpoint"});
-  expect_message(refused_flags({"--checkpoint-every", "5"}), {"--checkpoint-every", "--checkpoint"});
+  expect_parts(refused_flags({"--resume"}), {"resume", "", "", "`checkpoint`"});
+  expect_parts(refused_flags({"--checkpoint-every", "5"}), {"checkpoint-every", "", "", "`checkpoint`"});
   const renderer::CheckpointOptions options =
       read_flags({"--resume", "--checkpoint-every", "5", "--checkpoint", "c.gatelight"}).render.checkpoint;
   EXPECT_EQ(options.file, "c.gatelight");
@@ -125,24 +129,26 @@ TEST(RefusedFlags, NoFlagWritesAFileThatAnotherReadsOrWrites) {
   std::filesystem::create_directory_symlink("d", folder / "dl");
   std::filesystem::create_symlink("d/b.exr", folder / "link.exr");
   const std::string inside = (folder / "d/b.exr").string();
-  const std::vector<std::pair<Words, tests::NameList>> cases = {
-      {{"--checkpoint", "a.exr"}, {"--checkpoint", "a.exr", "--output"}},
-      {{"--stats", "./a.exr"}, {"--stats", "./a.exr", "--output"}},
-      {{"-o", "a.exr"}, {"--output", "a.exr"}},
+  const std::vector<std::pair<Words, ErrorParts>> cases = {
+      {{"--checkpoint", "a.exr"}, {"checkpoint", "a.exr", "`output`"}},
+      {{"--stats", "./a.exr"}, {"stats", "./a.exr", "`output`"}},
+      {{"-o", "a.exr"}, {"output", "a.exr", "twice"}},
       {{"-o", inside, "--checkpoint", (folder / "dl/b.exr").string()},
-       {"--checkpoint", "dl/b.exr", "--output"}},
-      {{"-o", inside, "-o", (folder / "link.exr").string()}, {"--output", "link.exr"}},
-      {{"--stats", "room.glb"}, {"--stats", "room.glb", "SCENE"}},
-      {{"--checkpoint", "room.glb"}, {"--checkpoint", "room.glb", "SCENE"}},
-      {{"--environment", "sky.exr", "-o", "sky.exr"}, {"--output", "sky.exr", "--environment"}},
-      {with_cache({"--cache-in", "c", "--stats", "c"}), {"--stats", "c", "--cache-in"}},
-      {with_cache({"--cache-out", "room.glb"}), {"--cache-out", "room.glb", "SCENE"}},
+       {"checkpoint", (folder / "dl/b.exr").string(), "`output`"}},
+      {{"-o", inside, "-o", (folder / "link.exr").string()},
+       {"output", (folder / "link.exr").string(), "twice"}},
+      {{"--stats", "room.glb"}, {"stats", "room.glb", "`SCENE`"}},
+      {{"--checkpoint", "room.glb"}, {"checkpoint", "room.glb", "`SCENE`"}},
+      {{"--environment", "sky.exr", "-o", "sky.exr"}, {"output", "sky.exr", "`environment`"}},
+      {with_cache({"--cache-in", "c", "--stats", "c"}), {"stats", "c", "`cache-in`"}},
+      {with_cache({"--cache-out", "room.glb"}), {"cache-out", "room.glb", "`SCENE`"}},
       {with_cache({"--cache-in", "room.glb", "--cache-out", "room.glb"}),
-       {"--cache-out", "room.glb", "SCENE"}},
+       {"cache-out", "room.glb", "`SCENE`"}},
   };
-  for (const auto& [words, names] : cases) expect_message(refused_flags(words), names);
-  EXPECT_EQ(refused_flags(with_cache({"--cache-in", "c", "--cache-out", "c"})), "") << "trained further";
-  EXPECT_EQ(refused_flags({"--stats", "-"}), "");
+  for (const auto& [words, parts] : cases) expect_parts(refused_flags(words), parts);
+  EXPECT_EQ(refused_flags(with_cache({"--cache-in", "c", "--cache-out", "c"})).option, "")
+      << "trained further";
+  EXPECT_EQ(refused_flags({"--stats", "-"}).option, "");
 }
 
 }  // namespace

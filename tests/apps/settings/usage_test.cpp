@@ -226,21 +226,21 @@ const std::vector<BadValue> kBadValues = {
     {{"--cryptomatte", "object,asset"}, {"--cryptomatte", "asset", "object|material"}},
     {{"--environment", "1,-2,3"}, {"--environment", "1,-2,3", "0"}},
     {{"--sky", "turbidity=0"}, {"--sky", "turbidity", "0", "1", "10"}},
-    {{"--sky", "clear", "--environment", "auto"}, {"--sky", "--environment"}},
+    {{"--sky", "clear", "--environment", "auto"}, {"--sky", "environment"}},
     {{"--lights", "lamp"}, {"--lights", "lamp", "NAME=off"}},
     {{"--lights", "lamp=-1"}, {"--lights", "-1", "0"}},
     {{"--lights", "lamp=1,2"}, {"--lights", "1,2"}},
     {{"--lights", "lamp=off;"}, {"--lights", "''", "NAME=off"}},
     {{"--light-groups", "key"}, {"--light-groups", "key", "NAME=LIGHT"}},
     {{"--light-groups", "rest=lamp"}, {"--light-groups", "rest"}},
-    {{"--light-groups", "key=lamp", "--integrator", "ao"}, {"--light-groups", "ao", "--integrator path"}},
+    {{"--light-groups", "key=lamp", "--integrator", "ao"}, {"--light-groups", "ao", "`integrator` path"}},
     {{"--eye", "1,2", "--target", "0,0,0"}, {"--eye", "1,2"}},
-    {{"--eye", "1,2,3"}, {"--target", "--eye"}},
+    {{"--eye", "1,2,3"}, {"--target", "eye"}},
     {{"--eye", "1,2,3", "--target", "1,2,3"}, {"--target", "1,2,3"}},
     {{"--eye", "0,1,0", "--target", "0,5,0"}, {"--up", "0,1,0"}},
     {{"--camera", "none such"}, {"camera", "none such", "front"}},
     {{"--progress", "loud"}, {"--progress", "loud", "auto|bar|json|none"}},
-    {{"--quiet", "--verbose"}, {"--quiet", "--verbose"}},
+    {{"--quiet", "--verbose"}, {"--quiet", "verbose"}},
     {{"--train-steps", "-1"}, {"--train-steps", "-1", "0"}},
     {{"--train-steps", "many"}, {"--train-steps", "many"}},
     {{"--batch", "0"}, {"--batch", "0", "1"}},
@@ -267,7 +267,7 @@ const std::vector<BadValue> kBadValues = {
     {{"--checkpoint-every", "-1"}, {"--checkpoint-every", "-1", "0"}},
     {{"--query-at", "gather"}, {"--query-at", "path", "nao", "nrc"}},
     {{"--aov", "resolution"}, {"--aov", "resolution", "nao", "nrc"}},
-    {{"--resume"}, {"--resume", "--checkpoint", "FILE"}},
+    {{"--resume"}, {"--resume", "checkpoint", "FILE"}},
     {{"--spp"}, {"--spp"}},
     {{"--spp", "1", "--spp", "2"}, {"--spp", "2"}},
 };
@@ -360,7 +360,7 @@ TEST_F(Usage, AConfigFileIsTextOfAtMostOneMebibyte) {
   expect_failure(refused({"--config", zero}), 2, {zero});
   // Some editors begin a text with a byte order mark.
   const Output marked = refused({"--config", folder.write("mark.toml", "\xEF\xBB\xBFspp = 0\n")});
-  expect_failure(marked, 1, {path("mark.toml"), "--spp"});
+  expect_failure(marked, 1, {path("mark.toml"), "spp"});
   const Output unknown = refused({"--config", folder.write("u.toml", std::string(100000, 'k') + " = 3\n")});
   EXPECT_EQ(unknown.exit_code, 1);
   EXPECT_LT(unknown.err.size(), 1000u);

@@ -18,19 +18,19 @@ using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::Not;
 using ::testing::Pair;
-using tests::expect_message;
+using tests::expect_parts;
 
 template <typename Call>
-std::string refusal(Call call) {
-  return tests::refusal<UsageError>(call);
+ErrorParts refusal(Call call) {
+  return tests::refused_parts<BadOption>(call);
 }
 
 TEST(SweepAxes, CommasSeparateValuesUnlessThereAreSemicolons) {
-  EXPECT_THAT(split_values("--features", "2,4,8"), ElementsAre("2", "4", "8"));
-  EXPECT_THAT(split_values("--stack", "adaptive,1;adaptive"), ElementsAre("adaptive,1", "adaptive"));
-  EXPECT_THAT(split_values("--stack", "adaptive,1", true), ElementsAre("adaptive,1"));
-  EXPECT_THAT(split_values("--stack", "adaptive;1", true), ElementsAre("adaptive", "1"));
-  EXPECT_THAT(split_integers("--spp", "16,1,4", {1, 100}), ElementsAre(1, 4, 16));
+  EXPECT_THAT(split_values("features", "2,4,8"), ElementsAre("2", "4", "8"));
+  EXPECT_THAT(split_values("stack", "adaptive,1;adaptive"), ElementsAre("adaptive,1", "adaptive"));
+  EXPECT_THAT(split_values("stack", "adaptive,1", true), ElementsAre("adaptive,1"));
+  EXPECT_THAT(split_values("stack", "adaptive;1", true), ElementsAre("adaptive", "1"));
+  EXPECT_THAT(split_integers("spp", "16,1,4", {1, 100}), ElementsAre(1, 4, 16));
 }
 
 TEST(SweepAxes, VaryNamesAFlagWithOrWithoutDashes) {
@@ -46,14 +46,12 @@ TEST(SweepAxes, VaryNamesAFlagWithOrWithoutDashes) {
 
 TEST(SweepAxes, BadListsAreRefusedWithFlagAndValue) {
   for (const char* text : {"2,,4", "", "2,", ","}) {
-    expect_message(refusal([&] { split_values("--features", text); }),
-                   {"--features", std::string("'") + text + "'"});
+    expect_parts(refusal([&] { split_values("features", text); }), {"features", text, "", "values"});
   }
-  expect_message(refusal([] { split_values("--features", "2,4,2"); }), {"--features", "2"});
-  expect_message(refusal([] { split_integers("--spp", "1,x", {1, 9}); }), {"--spp", "x"});
+  expect_parts(refusal([] { split_values("features", "2,4,2"); }), {"features", "2,4,2", "'2' twice"});
+  expect_parts(refusal([] { split_integers("spp", "1,x", {1, 9}); }), {"spp", "x", "", "1 to 9"});
   for (const char* text : {"batch", "=1", ""}) {
-    expect_message(refusal([&] { parse_vary(text); }),
-                   {"--vary", std::string("'") + text + "'", "NAME=V1,V2"});
+    expect_parts(refusal([&] { parse_vary(text); }), {"vary", text, "", "NAME=V1,V2"});
   }
 }
 
@@ -65,7 +63,7 @@ SweepWords words_for(FlagValues base, std::vector<std::string> vary = {}) {
   return words;
 }
 
-std::string refused(const SweepWords& words) {
+ErrorParts refused(const SweepWords& words) {
   return refusal([&] { make_request(words); });
 }
 
@@ -76,7 +74,7 @@ TEST(SweepRuns, AreANameAndFlagsWithValues) {
               ElementsAre(Pair("--preset", "bare"), Pair("--loss", "l2"), Pair("--exposure", "-1")));
   EXPECT_TRUE(parse_run("default:").flags.empty());
   for (const char* text : {"bare", ": --spp 2", "a: spp 2", "a: --spp"})
-    expect_message(refusal([&] { parse_run(text); }), {"--run", std::string("'") + text + "'"});
+    EXPECT_EQ(refusal([&] { parse_run(text); }).option, "run") << text;
 }
 
 TEST(SweepRuns, AreReadFromAFile) {
@@ -97,14 +95,15 @@ TEST(SweepRuns, AreRefusedWithFlagsThatAreNotTheirs) {
     words.runs = {"one: --spp 1", run};
     return refused(words);
   };
-  EXPECT_EQ(refused_run("two: --spp 2 --train-steps 8 --preset bare --hidden 64 --stack adaptive,1"), "");
+  EXPECT_EQ(refused_run("two: --spp 2 --train-steps 8 --preset bare --hidden 64 --stack adaptive,1").option,
+            "");
   for (const char* flag : {"--output", "--seed", "--stats", "--frob"})
-    expect_message(refused_run(std::string("two: ") + flag + " 2"), {"--run", flag, "two"});
+    expect_parts(refused_run(std::string("two: ") + flag + " 2"), {"run", flag, "'two'"});
   words.train_steps = "8";
-  expect_message(refused_run("two:"), {"--train-steps"});
+  EXPECT_EQ(refused_run("two:").option, "train-steps");
   SweepWords finished = words_for({{"--integrator", "path"}});
   finished.preset = "finished";
-  expect_message(refused(finished), {"--integrator", "finished"});
+  expect_parts(refused(finished), {"integrator", "--integrator", "finished"});
 }
 
 TEST(SweepRequest, DefaultsAreABareCacheOfManyStepsAndFinishedPicturesOfManySizes) {
@@ -140,26 +139,27 @@ TEST(SweepRequest, APresetOfRenderSetsIntegratorAndSamples) {
 TEST(SweepRequest, FlagsThatAreFixedAndVariedAreRefused) {
   SweepWords both = words_for({{"--encoding", "gate"}});
   both.axes = {{kAxisFlags[1], "gate,hashgrid"}};
-  expect_message(refused(both), {"--encoding", "--encodings", "gate"});
-  expect_message(refused(words_for({{"--batch", "7"}}, {"batch=1,2"})), {"--vary batch"});
-  expect_message(refused(words_for({}, {"batch=1,2", "batch=3"})), {"--vary", "batch"});
+  expect_parts(refused(both), {"encoding", "gate", "`encodings`"});
+  expect_parts(refused(words_for({{"--batch", "7"}}, {"batch=1,2"})), {"batch", "7", "`vary`"});
+  expect_parts(refused(words_for({}, {"batch=1,2", "batch=3"})), {"vary", "--batch", "`vary`"});
   SweepWords twice = words_for({}, {"features=2,4"});
   twice.axes = {{kAxisFlags[2], "8"}};
-  expect_message(refused(twice), {"--features", "--vary features"});
+  expect_parts(refused(twice), {"vary", "--features", "`features`"});
   SweepWords preset = words_for({}, {"preset=preview,final"});
   preset.preset = "preview";
-  expect_message(refused(preset), {"--preset"});
+  EXPECT_EQ(refused(preset).option, "preset");
 }
 
 TEST(SweepRequest, FlagsThatCannotBeVariedAreRefusedWithAnAlternative) {
-  expect_message(refused(words_for({}, {"seed=1,2"})), {"--seeds"});
-  expect_message(refused(words_for({}, {"spp=1,2"})), {"--cache-spp"});
-  expect_message(refused(words_for({}, {"train-steps=1,2"})), {"--train-steps"});
+  expect_parts(refused(words_for({}, {"seed=1,2"})), {"vary", "--seed", "", "--seeds"});
+  expect_parts(refused(words_for({}, {"spp=1,2"})), {"vary", "--spp", "", "--cache-spp"});
+  expect_parts(refused(words_for({}, {"train-steps=1,2"})),
+               {"vary", "--train-steps", "", "--train-steps LIST"});
   for (const char* flag : {"output", "cache-in", "checkpoint", "time-limit", "train-time", "aov",
                            "cryptomatte", "variant", "frob"}) {
-    expect_message(refused(words_for({}, {std::string(flag) + "=a,b"})), {flag});
+    expect_parts(refused(words_for({}, {std::string(flag) + "=a,b"})), {"vary", std::string("--") + flag});
   }
-  EXPECT_EQ(refused(words_for({}, {"max-depth=1,2", "exposure=0,1", "view=final,cache"})), "");
+  EXPECT_EQ(refused(words_for({}, {"max-depth=1,2", "exposure=0,1", "view=final,cache"})).option, "");
 }
 
 TEST(SweepRequest, SeedsStartAtTheGivenSeed) {
@@ -170,12 +170,12 @@ TEST(SweepRequest, SeedsStartAtTheGivenSeed) {
   EXPECT_EQ(request.seeds, 3);
   EXPECT_THAT(request.blocks[0].base, Not(Contains(Pair("--seed", "40"))));
   words.seeds = "0";
-  expect_message(refused(words), {"--seeds", "0"});
+  expect_parts(refused(words), {"seeds", "0"});
   words.seeds = "2";
   words.base = {{"--seed", "4294967295"}};
-  expect_message(refused(words), {"--seed", "4294967295"});
+  expect_parts(refused(words), {"seed", "4294967295"});
   words.base = {{"--seed", "4000000007"}};
-  expect_message(refused(words), {"--seed", "4000000007"});
+  expect_parts(refused(words), {"seed", "4000000007"});
 }
 
 TEST(SweepRequest, FlagsWinOverAPresetOfThePaper) {
@@ -193,7 +193,7 @@ TEST(SweepRequest, FlagsWinOverAPresetOfThePaper) {
     EXPECT_THAT(block.train_steps, ElementsAre(2, 4));
   }
   words.preset = "paper-table3";
-  expect_message(refused(words), {"paper-table3", "paper-table1", "preview"});
+  expect_parts(refused(words), {"preset", "paper-table3", "", "preview", "paper-table1"});
 }
 
 TEST(SweepRequest, FlagsThatNameARowCannotBeChanged) {
@@ -202,21 +202,22 @@ TEST(SweepRequest, FlagsThatNameARowCannotBeChanged) {
     words.preset = preset;
     return refused(words);
   };
-  expect_message(refused_by("paper-table1", {{"--update", "sparse"}}),
-                 {"--update", "--preset", "paper-table1"});
-  expect_message(refused_by("paper-table1", {}, {"preset=preview,final"}), {"--vary preset"});
-  expect_message(refused_by("paper-adaptive", {{"--resolution", "uniform"}}), {"--resolution"});
-  EXPECT_EQ(refused_by("paper-table1", {{"--resolution", "uniform"}}), "") << "no row is named after it";
-  EXPECT_EQ(refused_by("paper-table1", {{"--normal-input", "on"}}), "");
+  expect_parts(refused_by("paper-table1", {{"--update", "sparse"}}),
+               {"update", "--update", "`preset` paper-table1"});
+  expect_parts(refused_by("paper-table1", {}, {"preset=preview,final"}), {"vary", "--preset"});
+  EXPECT_EQ(refused_by("paper-adaptive", {{"--resolution", "uniform"}}).option, "resolution");
+  EXPECT_EQ(refused_by("paper-table1", {{"--resolution", "uniform"}}).option, "")
+      << "no row is named after it";
+  EXPECT_EQ(refused_by("paper-table1", {{"--normal-input", "on"}}).option, "");
   SweepWords axes = words_for({});
   axes.preset = "paper-table1";
   axes.axes = {{kAxisFlags[1], "gate,hashgrid"}};
-  expect_message(refused(axes), {"--encodings", "--encoding"});
+  expect_parts(refused(axes), {"encodings", "--encoding"});
   axes.axes = {{kAxisFlags[0], "nrc"}};
-  expect_message(refused(axes), {"--integrators"});
+  EXPECT_EQ(refused(axes).option, "integrators");
   axes.axes.clear();
   axes.scene_flags = {"room:update=sparse"};
-  expect_message(refused(axes), {"--for room"});
+  EXPECT_EQ(refused(axes).option, "for");
 }
 
 }  // namespace

@@ -188,7 +188,7 @@ TEST_F(SweepCells, AGivenReferenceIsCompared) {
   expect_failure(size, 2, {"r.exr", "24x16", "20x16"});
   for (const char* vary : {"max-depth=2,3", "filter=box,tent", "environment=none;1,1,1", "fov=40,50"}) {
     const Output views = refused({"--vary", vary});
-    expect_failure(views, 1, {"--reference", path("r.exr"), "2", "--reference-spp"});
+    expect_failure(views, 1, {"--reference", path("r.exr"), "2", "reference-spp"});
   }
   const Output missing = run_gatelight_inside(words("out", {"--reference", path("none.exr"), "--no-plain"}));
   expect_failure(missing, 2, {"none.exr"});

@@ -24,7 +24,7 @@ Failure failure_of(const Exception& exception) {
 }
 
 TEST(ExitCodes, EachKindOfExceptionHasItsCode) {
-  EXPECT_EQ(failure_of(UsageError("m")).code, 1);
+  EXPECT_EQ(failure_of(BadOption("m")).code, 1);
   EXPECT_EQ(failure_of(BadOption("m")).code, 1);
   EXPECT_EQ(failure_of(UnknownFormat("m")).code, 1);
   EXPECT_EQ(failure_of(InputError("m")).code, 2);

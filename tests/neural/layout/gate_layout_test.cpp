@@ -18,6 +18,7 @@ namespace gatelight::neural {
 namespace {
 
 using gatelight::tests::expect_refusal;
+using gatelight::tests::expect_refused_parts;
 using testing::Mesh;
 
 /// Meshes of several sizes and kinds, instances of which some share a mesh and some have no storage.
@@ -324,21 +325,21 @@ TEST(GateLayout, OptionsOutOfRangeAreRefusedByName) {
                                   const std::function<void(GateOptions&)>& change) {
     GateOptions options;
     change(options);
-    expect_refusal<BadConfiguration>([&] { build_gate_layout(testing::one_instance(mesh), options); },
-                                     {name, value});
+    expect_refused_parts<BadConfiguration>([&] { build_gate_layout(testing::one_instance(mesh), options); },
+                                           {name, value});
   };
   expect_refused("features", "0", [](GateOptions& o) { o.features = 0; });
   expect_refused("features", "17", [](GateOptions& o) { o.features = 17; });
   expect_refused("stack", "0", [](GateOptions& o) { o.stack.clear(); });
   expect_refused("stack", "5", [](GateOptions& o) { o.stack.assign(5, 1); });
-  expect_refused("level", "65", [](GateOptions& o) { o.stack = {1, 65}; });
-  expect_refused("level", "65", [](GateOptions& o) { o.stack = {adaptive_part(65)}; });
-  expect_refused("node spacing", "0", [](GateOptions& o) { o.node_spacing = 0; });
-  expect_refused("node spacing", "nan", [](GateOptions& o) { o.node_spacing = std::nanf(""); });
-  expect_refused("resolution scale", "-1", [](GateOptions& o) { o.resolution_scale = -1; });
-  expect_refused("fixed resolution", "65", [](GateOptions& o) { o.fixed_resolution = 65; });
-  expect_refused("greatest resolution", "0", [](GateOptions& o) { o.max_resolution = 0; });
-  expect_refused("bytes of a feature", "3", [](GateOptions& o) { o.bytes_per_feature = 3; });
+  expect_refused("stack", "65", [](GateOptions& o) { o.stack = {1, 65}; });
+  expect_refused("stack", "adaptive/65", [](GateOptions& o) { o.stack = {adaptive_part(65)}; });
+  expect_refused("node-spacing", "0", [](GateOptions& o) { o.node_spacing = 0; });
+  expect_refused("node-spacing", "nan", [](GateOptions& o) { o.node_spacing = std::nanf(""); });
+  expect_refused("resolution-scale", "-1", [](GateOptions& o) { o.resolution_scale = -1; });
+  expect_refused("resolution", "65", [](GateOptions& o) { o.fixed_resolution = 65; });
+  expect_refused("max-resolution", "0", [](GateOptions& o) { o.max_resolution = 0; });
+  expect_refused("bytes-per-feature", "3", [](GateOptions& o) { o.bytes_per_feature = 3; });
 }
 
 TEST(GateLayout, InvalidSurfacesAreRefusedByName) {

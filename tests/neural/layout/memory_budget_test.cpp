@@ -24,10 +24,10 @@ constexpr std::uint64_t kMegabyte = 1000000;
 /// Returns the least number of bytes, which the message of a refused budget names.
 std::uint64_t least_bytes(const SurfaceLayout& scene, GateOptions options) {
   options.memory_budget = 1;
-  const std::string message = tests::refusal<BadConfiguration>([&] { build_gate_layout(scene, options); });
-  tests::expect_names(message, {"memory budget", "1"});
+  const ErrorParts parts = tests::refused_parts<BadConfiguration>([&] { build_gate_layout(scene, options); });
+  tests::expect_parts(parts, {"cache-memory", "1", "bytes"});
   std::smatch match;
-  return std::regex_search(message, match, std::regex("([0-9]+)$")) ? std::stoull(match[1]) : 0;
+  return std::regex_search(parts.expected, match, std::regex("([0-9]+)$")) ? std::stoull(match[1]) : 0;
 }
 
 /// Spheres of several tessellations and sizes, some with both sides, and a floor of two large triangles.

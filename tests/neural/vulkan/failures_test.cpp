@@ -11,7 +11,7 @@ namespace gatelight::neural {
 namespace {
 
 using namespace testing;
-using tests::expect_names;
+using tests::expect_message;
 using tests::refusal;
 
 // The names of devices, and so the messages, depend on the machine.
@@ -25,8 +25,8 @@ TEST_F(VulkanFailures, ALostDeviceIsReportedByStepsAndAnswers) {
   const auto machine = vulkan::open_machine(options);
   const auto backend = vulkan::make_vulkan_backend(machine, c.model, {});
   EXPECT_EQ(backend->train(batch.training()).records, 50u);
-  expect_names(refusal<DeviceLost>([&] { backend->train(batch.training()); }),
-               {vulkan::machine_name(*machine)});
+  expect_message(refusal<DeviceLost>([&] { backend->train(batch.training()); }),
+                 {vulkan::machine_name(*machine)});
   std::vector<float> out(batch.size() * 3);
   EXPECT_THROW(backend->query(batch.points(), {}, out), DeviceLost);
   EXPECT_THROW(backend->query(batch.points(), {}, out), DeviceLost);
@@ -40,15 +40,15 @@ TEST_F(VulkanFailures, TooLittleMemoryIsReportedWithTheDevice) {
   config.hash_grid.base_resolution = 1290;
   config.hash_grid.log2_table_size = 31;
   const auto model = make_model(config);
-  expect_names(refusal<OutOfDeviceMemory>([&] { vulkan::make_vulkan_backend(test_machine(), model, {}); }),
-               {vulkan::machine_name(*test_machine()), "MiB"});
+  expect_message(refusal<OutOfDeviceMemory>([&] { vulkan::make_vulkan_backend(test_machine(), model, {}); }),
+                 {vulkan::machine_name(*test_machine()), "MiB"});
 }
 
 TEST_F(VulkanFailures, MissingDevicesAreRefused) {
   vulkan::MachineOptions options;
   options.device = "99";
-  expect_names(refusal<Unavailable>([&] { vulkan::open_machine(options); }),
-               {"99", vulkan::machine_name(*test_machine())});
+  expect_message(refusal<Unavailable>([&] { vulkan::open_machine(options); }),
+                 {"99", vulkan::machine_name(*test_machine())});
 }
 
 // A buffer of zero bytes is invalid, but harmless.
@@ -66,8 +66,8 @@ TEST_F(VulkanFailures, AMessageOfTheValidationLayerFailsTheNextStep) {
     const vk::BufferCreateInfo nothing({}, 0, vk::BufferUsageFlagBits::eStorageBuffer);
     const vk::raii::Buffer buffer(machine->device().handle(), nothing);
   }
-  expect_names(refusal<vulkan::ValidationFailed>([&] { backend->train(batch.training()); }),
-               {"VUID-VkBufferCreateInfo-size-00912"});
+  expect_message(refusal<vulkan::ValidationFailed>([&] { backend->train(batch.training()); }),
+                 {"VUID-VkBufferCreateInfo-size-00912"});
 }
 
 }  // namespace

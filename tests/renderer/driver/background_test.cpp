@@ -311,10 +311,12 @@ TEST(ShadowCatcher, NeedsAnAlphaAndAnObjectThatIsThere) {
   const scene::Scene scene = floor_with(SceneBuilder());
   RenderOptions options = catching(Integrator::path);
   options.background.shadow_catcher = "table";
-  tests::expect_refusal<BadOption>([&] { rendered(scene, options); }, {"`shadow-catcher` table", "'floor'"});
+  tests::expect_refused_parts<BadOption>([&] { rendered(scene, options); },
+                                         {"shadow-catcher", "table", "", "'floor'"});
   options.background.shadow_catcher = "floor";
   options.background.kind = Kind::scene;
-  tests::expect_refusal<BadOption>([&] { rendered(scene, options); }, {"`shadow-catcher`", "`background`"});
+  tests::expect_refused_parts<BadOption>([&] { rendered(scene, options); },
+                                         {"shadow-catcher", "floor", "alpha", "`background`"});
 }
 
 TEST(SetCamera, GivesTheBitsOfARendererOfThatView) {

@@ -18,7 +18,7 @@ namespace {
 
 using testing::lit_by_all;
 using testing::view_of_all;
-using tests::expect_refusal;
+using tests::expect_refused_parts;
 
 class LightLayers : public ::testing::Test {
  protected:
@@ -155,8 +155,8 @@ TEST_F(LightLayers, AreRefusedByIntegratorsThatDoNotSeparateLights) {
   for (const Integrator integrator : {Integrator::nrc, Integrator::nao, Integrator::ao}) {
     RenderOptions o = options();
     o.integrator = integrator;
-    expect_refusal<BadOption>([&] { Renderer(scene, o); },
-                              {"`light-groups`", enum_name(integrator), "`integrator` path"});
+    expect_refused_parts<BadOption>([&] { Renderer(scene, o); },
+                                    {"light-groups", "", enum_name(integrator), "`integrator` path"});
   }
 }
 

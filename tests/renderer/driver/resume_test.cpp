@@ -150,12 +150,12 @@ TEST(Checkpoints, OptionsThatDecideBitsMustBeTheSame) {
   expect_message(resuming([](RenderOptions& o) { o.cache.train_steps = 11; }), {"train-steps", "8", "11"});
   expect_message(resuming([](RenderOptions& o) { o.camera.look_at->eye.x() = 0.6f; }), {"camera", "0.6"});
   // It has the values of all options.
-  tests::expect_names(resuming([](RenderOptions& o) { o.integrator = Integrator::path; }),
-                      {"/picture", "integrator", "nrc", "path"});
+  tests::expect_message(resuming([](RenderOptions& o) { o.integrator = Integrator::path; }),
+                        {"/picture", "integrator", "nrc", "path"});
   expect_message(resuming([](RenderOptions& o) { o.environment.constant.x() = 1.0f; }), {"environment"});
   if (simd::available_isas().size() > 1) {
-    tests::expect_names(resuming([](RenderOptions& o) { o.isa = "scalar"; }),
-                        {"/picture", "kernels", "scalar"});
+    tests::expect_message(resuming([](RenderOptions& o) { o.isa = "scalar"; }),
+                          {"/picture", "kernels", "scalar"});
   }
   s.materials[0].base_color.x() = 0.1f;
   expect_message(refusal<CacheFileError>([&] { render(s, options); }), {"materials"});
@@ -183,7 +183,7 @@ TEST(Checkpoints, GroupsOfLightsMustBeTheSame) {
                  {"light-groups", "key=lamp,bulb", "key=lamp;fill=bulb"});
   options.light_groups = {{"key", {"lamp", "bulb"}}};
   s.lights[1].name = "other";
-  tests::expect_names(refusal<CacheFileError>([&] { render(s, options); }), {"lights-of-groups"});
+  tests::expect_message(refusal<CacheFileError>([&] { render(s, options); }), {"lights-of-groups"});
 }
 
 TEST(CacheFiles, ASavedCacheAnswersAndContinuesTrainingToTheBit) {

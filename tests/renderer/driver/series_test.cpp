@@ -24,7 +24,7 @@ using kinds::kKinds;
 using kinds::picture_of;
 using kinds::Result;
 using testing::room;
-using tests::expect_message;
+using tests::expect_parts;
 using tests::TemporaryFolder;
 
 /// A series of the kind of points that the integrator has.
@@ -199,8 +199,8 @@ TEST(RenderSeries, ProgressRunsOnceOverTheWholeTraining) {
   EXPECT_EQ(training.back().steps_done, 8);
 }
 
-std::string refusal(const scene::Scene& scene, const RenderOptions& options, const Series& series) {
-  return tests::refusal<BadOption>([&] {
+ErrorParts refusal(const scene::Scene& scene, const RenderOptions& options, const Series& series) {
+  return tests::refused_parts<BadOption>([&] {
     Renderer(scene, options).render_series(series, [](int, const Picture&, const RenderStatistics&) {
       ADD_FAILURE() << "a picture of a refused series";
     });
@@ -212,29 +212,29 @@ TEST(RenderSeries, InvalidSeriesAreRefused) {
   const scene::Scene s = room();
   const RenderOptions path = picture_of(Integrator::path);
   const RenderOptions nrc = picture_of(Integrator::nrc);
-  expect_message(refusal(s, path, {}), {"spp"});
-  expect_message(refusal(s, nrc, {}), {"train_steps"});
-  expect_message(refusal(s, path, {.spp = {1, 4, 4}}), {"spp 1,4,4"});
-  expect_message(refusal(s, path, {.spp = {0, 4}}), {"spp 0,4", "1"});
-  expect_message(refusal(s, nrc, {.train_steps = {8, 4}}), {"train_steps 8,4"});
-  expect_message(refusal(s, nrc, {.train_steps = {-1, 4}}), {"train_steps -1,4", "0"});
-  expect_message(refusal(s, path, {.train_steps = {8}}), {"spp"});
-  expect_message(refusal(s, path, {.train_steps = {8}, .spp = {8}}), {"spp"});
-  expect_message(refusal(s, nrc, {.train_steps = {8}, .spp = {8}}), {"train_steps"});
+  expect_parts(refusal(s, path, {}), {"spp", "", "", "1"});
+  expect_parts(refusal(s, nrc, {}), {"train-steps", "", "", "0"});
+  expect_parts(refusal(s, path, {.spp = {1, 4, 4}}), {"spp", "1,4,4"});
+  expect_parts(refusal(s, path, {.spp = {0, 4}}), {"spp", "0,4", "", "1"});
+  expect_parts(refusal(s, nrc, {.train_steps = {8, 4}}), {"train-steps", "8,4"});
+  expect_parts(refusal(s, nrc, {.train_steps = {-1, 4}}), {"train-steps", "-1,4", "", "0"});
+  expect_parts(refusal(s, path, {.train_steps = {8}}), {"train-steps", "", "", "`spp`"});
+  expect_parts(refusal(s, path, {.train_steps = {8}, .spp = {8}}), {"train-steps", "", "", "`spp`"});
+  expect_parts(refusal(s, nrc, {.train_steps = {8}, .spp = {8}}), {"spp", "", "", "`train-steps`"});
   RenderOptions large = path;
   testing::denoise(large);
   large.denoise.supersampling = 2;
-  expect_message(refusal(s, large, {.spp = {4, 6}}), {"spp with 6", "multiples of 4"});
+  expect_parts(refusal(s, large, {.spp = {4, 6}}), {"spp", "6", "", "multiple of 4"});
   const auto with = [&](const std::function<void(RenderOptions&)>& change) {
     RenderOptions changed = nrc;
     change(changed);
     return refusal(s, changed, {.train_steps = {8}});
   };
-  expect_message(with([](RenderOptions& o) { o.time_limit_seconds = 1.0; }), {"time limit"});
-  expect_message(with([](RenderOptions& o) { o.max_error = 0.1; }), {"error"});
-  expect_message(with([](RenderOptions& o) { o.cache.train_seconds = 1.0; }), {"training"});
-  expect_message(with([](RenderOptions& o) { o.checkpoint.file = "c"; }), {"checkpoint"});
-  expect_message(with([](RenderOptions& o) { o.cache.cache_out = "c"; }), {"cache file"});
+  expect_parts(with([](RenderOptions& o) { o.time_limit_seconds = 1.0; }), {"time-limit"});
+  expect_parts(with([](RenderOptions& o) { o.max_error = 0.1; }), {"max-error"});
+  expect_parts(with([](RenderOptions& o) { o.cache.train_seconds = 1.0; }), {"train-time"});
+  expect_parts(with([](RenderOptions& o) { o.checkpoint.file = "c"; }), {"checkpoint"});
+  expect_parts(with([](RenderOptions& o) { o.cache.cache_out = "c"; }), {"cache-out"});
 }
 
 }  // namespace

@@ -12,8 +12,8 @@
 namespace gatelight::renderer {
 namespace {
 
-using tests::expect_message;
-using tests::expect_refusal;
+using tests::expect_parts;
+using tests::expect_refused_parts;
 
 scene::Scene scene_with_cameras() {
   scene::Scene s;
@@ -72,8 +72,8 @@ TEST(Camera, IsChosenByNameThenByIndex) {
 
 TEST(Camera, UnknownNameNamesTheChoices) {
   const scene::Scene s = scene_with_cameras();
-  expect_refusal<BadOption>([&] { choose_camera(s, named("side"), 1.0f); },
-                            {"side", "test.glb", "front", "top"});
+  expect_refused_parts<BadOption>([&] { choose_camera(s, named("side"), 1.0f); },
+                                  {"camera", "side", "test.glb", "front"});
 }
 
 TEST(Camera, LookAtPutsTheTargetInTheCentreAndUpAbove) {
@@ -140,21 +140,21 @@ TEST(Camera, TargetsAndUpsOfAnyLengthAreDirections) {
 
 TEST(Camera, BeyondWhatRaysCanReachItIsRefusedByName) {
   const auto refusal = [](const scene::Scene& s, const CameraOptions& options, float aspect) {
-    return tests::refusal<BadOption>([&] { choose_camera(s, options, aspect); });
+    return tests::refused_parts<BadOption>([&] { choose_camera(s, options, aspect); });
   };
   CameraOptions by_hand;
   by_hand.look_at = LookAt{{1e12f, 0, 0}, {0, 0, 0}, {0, 1, 0}};
-  EXPECT_EQ(refusal({}, by_hand, 1.0f), "");
+  EXPECT_EQ(refusal({}, by_hand, 1.0f).option, "");
   by_hand.look_at->eye.x() = 1e20f;
-  expect_message(refusal({}, by_hand, 1.0f), {"`eye`", "1e+20", "1e+12"});
+  expect_parts(refusal({}, by_hand, 1.0f), {"eye", "", "1e+20", "1e+12"});
   scene::Scene s = scene_with_cameras();
   s.cameras[0].transform.translation().z() = -2e12f;
-  expect_message(refusal(s, {}, 1.0f), {"front", "test.glb", "-2e+12"});
+  expect_parts(refusal(s, {}, 1.0f), {"camera", "", "'front' of test.glb is at (0, 0, -2e+12)"});
   s = scene_with_cameras();
   s.cameras[0].orthographic = true;
   s.cameras[0].half_height = 1e11f;
-  EXPECT_EQ(refusal(s, {}, 1.0f), "");
-  expect_message(refusal(s, {}, 100.0f), {"front", "1e+13"});
+  EXPECT_EQ(refusal(s, {}, 1.0f).option, "");
+  expect_parts(refusal(s, {}, 100.0f), {"camera", "", "1e+13"});
 }
 
 }  // namespace

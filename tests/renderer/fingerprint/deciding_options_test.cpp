@@ -9,7 +9,7 @@
 namespace gatelight::renderer {
 namespace {
 
-using tests::expect_names;
+using tests::expect_message;
 
 std::string changed(const std::function<void(RenderOptions&, scene::Camera&)>& change,
                     Integrator integrator = Integrator::nrc) {
@@ -78,7 +78,7 @@ TEST(DecidingOptions, EachIsNamedWithBothValues) {
       {[](O o, C) { o.cache.view = CacheOutput::cache; }, {"view", "final", "cache"}},
       {[](O o, C) { o.cache.cache_in = "old"; }, {"cache-in", "none", "old"}},
   };
-  for (const auto& [change, names] : cases) expect_names(changed(change), names);
+  for (const auto& [change, names] : cases) expect_message(changed(change), names);
 }
 
 TEST(DecidingOptions, OptionsThatDecideNoBitsAreNotAmongThem) {

@@ -23,7 +23,7 @@ namespace gatelight::renderer {
 namespace {
 
 using ::testing::ElementsAre;
-using tests::expect_refusal;
+using tests::expect_refused_parts;
 using tests::read_file;
 using tests::TemporaryFolder;
 
@@ -188,19 +188,23 @@ TEST(Ocio, MissingNamesAreReportedWithTheAvailableOnes) {
   const TemporaryFolder folder;
   const std::string config = folder.write("config.ocio", kConfig).string();
   const auto check = [](const OcioView& view) { check_display({.ocio = view}); };
-  expect_refusal<BadOption>(
+  expect_refused_parts<BadOption>(
       [&] {
         check({config, "cinema", ""});
       },
-      {"`ocio-display` 'cinema'", "screen", "wall"});
-  expect_refusal<BadOption>(
+      {"ocio-display", "cinema", "", "'screen', 'wall'"});
+  expect_refused_parts<BadOption>(
       [&] {
         check({config, "screen", "film"});
       },
-      {"`ocio-view` 'film'", "square root", "as it is"});
-  expect_refusal<BadOption>([&] { check({(folder / "no.ocio").string(), "", ""}); }, {"`ocio`", "no.ocio"});
+      {"ocio-view", "film", "", "square root"});
+  expect_refused_parts<BadOption>(
+      [&] {
+        check({(folder / "no.ocio").string(), "", ""});
+      },
+      {"ocio", (folder / "no.ocio").string()});
   const std::string broken = folder.write("broken.ocio", "displays: [").string();
-  expect_refusal<BadOption>([&] { check({broken, "", ""}); }, {"`ocio`", "broken.ocio"});
+  expect_refused_parts<BadOption>([&] { check({broken, "", ""}); }, {"ocio", broken});
 }
 
 }  // namespace
