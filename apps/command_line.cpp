@@ -45,8 +45,8 @@ CLI::App* called_subcommand(const CLI::App& root) {
 
 /// The beginning of a text from a file, which may be long.
 std::string cut(const std::string& text) {
-  constexpr std::size_t kMost = 200;
-  return text.size() <= kMost ? text : text.substr(0, kMost) + "...";
+  constexpr std::size_t kMax = 200;
+  return text.size() <= kMax ? text : text.substr(0, kMax) + "...";
 }
 
 /// Long names, without their dashes, of the flags of the called subcommand and of all.

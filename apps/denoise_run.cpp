@@ -283,8 +283,8 @@ std::vector<int> existing_frames(const std::string& name) {
     for (auto at = file.begin(); at != file.end();) {
       at = std::find_if(at, file.end(), is_digit);
       const auto end = std::find_if_not(at, file.end(), is_digit);
-      constexpr std::ptrdiff_t kMostDigits = 8;
-      if (at != end && end - at <= kMostDigits) {
+      constexpr std::ptrdiff_t kMaxDigits = 8;
+      if (at != end && end - at <= kMaxDigits) {
         for (const int sign : {1, -1}) {
           const int frame = sign * std::stoi(std::string(at, end));
           if (fs::path(name_of_frame(name, frame)).filename() == file) frames.insert(frame);

@@ -6,9 +6,9 @@
 #include "apps/ranks/frame_groups.h"
 #include "apps/render/render_run.h"
 #include "apps/settings/complete_settings.h"
+#include "apps/settings/display_defaults.h"
 #include "apps/settings/flags.h"
 #include "apps/settings/option_table.h"
-#include "apps/settings/show_well.h"
 #include "apps/subcommand.h"
 #include "apps/terminal/errors.h"
 #include "apps/terminal/log.h"
@@ -35,7 +35,7 @@ Examples:
 
 int run_render(RenderSettings settings, const std::vector<std::string>& command, const RankGroup& group) {
   set_json_messages(settings.progress == ProgressMode::json);
-  show_well(settings);
+  apply_display_defaults(settings);
   complete_settings(settings);
   if (!group.ranks.first()) settings.quiet = true;
   check_inputs(settings);

@@ -78,11 +78,11 @@ constexpr RealRange kErrors{0.0, 1.0};
 using namespace renderer;
 
 struct SweepCall {
-  SweepWords words;
+  SweepArguments words;
   SweepSettings settings;
 };
 
-void add_axes(std::vector<Option>& table, SweepWords& words) {
+void add_axes(std::vector<Option>& table, SweepArguments& words) {
   OptionGroup axes{table, "Axes"};
   const auto kept = [&](const char* name, const char* unit, const char* help, const char* default_text,
                         std::string& text) {
@@ -161,7 +161,7 @@ void add_folder_options(std::vector<Option>& table, SweepSettings& s) {
 }
 
 /// Flags of render; they are not in the help.
-void add_base_flags(std::vector<Option>& table, SweepWords& words) {
+void add_base_flags(std::vector<Option>& table, SweepArguments& words) {
   OptionGroup base{table, ""};
   for (const std::string& name : base_flag_names()) {
     base.add({.name = name.substr(2),

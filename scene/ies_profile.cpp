@@ -17,8 +17,8 @@ namespace {
 
 constexpr std::size_t kRows = 721;     // 0 to 180 degrees
 constexpr std::size_t kColumns = 145;  // 0 to 360 degrees
-constexpr int kMostAngles = 10000;
-constexpr std::size_t kMostBytes = 64 << 20;
+constexpr int kMaxAngles = 10000;
+constexpr std::size_t kMaxBytes = 64 << 20;
 
 /// The numbers of the file, separated by blanks, commas and ends of lines.
 class Numbers {
@@ -42,8 +42,8 @@ class Numbers {
 
   int count(std::string_view what, int least) {
     const double value = next(what);
-    if (!(value >= least && value <= kMostAngles) || value != std::floor(value))
-      throw InputError(fmt::format("{} is {}, expected {} to {}", what, value, least, kMostAngles));
+    if (!(value >= least && value <= kMaxAngles) || value != std::floor(value))
+      throw InputError(fmt::format("{} is {}, expected {} to {}", what, value, least, kMaxAngles));
     return static_cast<int>(value);
   }
 
@@ -215,13 +215,13 @@ float IesProfile::relative(const Vec3& direction) const {
 
 IesProfile read_ies_profile(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
-  std::string text(kMostBytes + 1, '\0');
+  std::string text(kMaxBytes + 1, '\0');
   if (!file || std::filesystem::is_directory(path))
     throw InputError(fmt::format("cannot read '{}'", path.string()));
   file.read(text.data(), static_cast<std::streamsize>(text.size()));
   text.resize(static_cast<std::size_t>(file.gcount()));
-  if (text.size() > kMostBytes)
-    throw InputError(fmt::format("{}: expected at most {} bytes", path.string(), kMostBytes));
+  if (text.size() > kMaxBytes)
+    throw InputError(fmt::format("{}: expected at most {} bytes", path.string(), kMaxBytes));
   try {
     return IesProfile(text);
   } catch (const InputError& error) {

@@ -10,14 +10,14 @@
 namespace gatelight::scene {
 namespace {
 
-/// "lights 'a', 'b'"; at most kMost names, which fit into a line.
+/// "lights 'a', 'b'"; at most kMax names, which fit into a line.
 std::string list_names(const char* what, const std::set<std::string>& names) {
-  constexpr std::size_t kMost = 24;
+  constexpr std::size_t kMax = 24;
   std::vector<std::string> quoted;
   for (const std::string& name : names) {
-    if (quoted.size() < kMost) quoted.push_back(fmt::format("'{}'", name));
+    if (quoted.size() < kMax) quoted.push_back(fmt::format("'{}'", name));
   }
-  if (names.size() > kMost) quoted.push_back(fmt::format("and {} more", names.size() - kMost));
+  if (names.size() > kMax) quoted.push_back(fmt::format("and {} more", names.size() - kMax));
   return fmt::format("{} {}", what, fmt::join(quoted, ", "));
 }
 

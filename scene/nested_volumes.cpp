@@ -57,7 +57,7 @@ std::vector<Body> find_bodies(const Scene& scene) {
 /// Keeps the bodies whose bounding boxes touch another's. They are swept along the axis on which they are
 /// spread most. With very many bodies it may keep more of them, which costs their paths only a little time.
 void keep_those_that_touch(std::vector<Body>& bodies) {
-  constexpr std::size_t kMostTests = 20'000'000;
+  constexpr std::size_t kMaxTests = 20'000'000;
   Box all;
   for (const Body& body : bodies) all.extend(body.bounds);
   Eigen::Index axis = 0;
@@ -70,7 +70,7 @@ void keep_those_that_touch(std::vector<Body>& bodies) {
   for (std::size_t a = 0; a < bodies.size(); ++a) {
     const float end = bodies[a].bounds.max()[axis];
     for (std::size_t b = a + 1; b < bodies.size() && bodies[b].bounds.min()[axis] <= end; ++b) {
-      if (++tests > kMostTests) return;
+      if (++tests > kMaxTests) return;
       if (bodies[a].bounds.intersects(bodies[b].bounds)) touches[a] = touches[b] = 1;
     }
   }

@@ -4,7 +4,7 @@ namespace gatelight::scene {
 
 int parts_of_turn(double turn, int intervals) {
   constexpr double kTurn = 0.1;
-  const int most = std::max(1, kMostShutterIntervals / intervals);
+  const int most = std::max(1, kMaxShutterIntervals / intervals);
   int parts = 1;
   while (turn > kTurn * parts && parts < most) parts = std::min(2 * parts, most);
   return parts;

@@ -16,11 +16,11 @@ namespace gatelight::scene {
 inline constexpr int kShutterKeys = 9;
 
 /// The largest number of intervals between states. Embree takes 129 states.
-inline constexpr int kMostShutterIntervals = 128;
+inline constexpr int kMaxShutterIntervals = 128;
 
 /// The number of parts in which all `intervals` are divided for what turns by this angle in one, in radians.
 /// The angle of a part is at most 0.1, where a chord is nearer to the axis than its arc by an 800th of the
-/// radius; for what turns further than kMostShutterIntervals allow, it is larger.
+/// radius; for what turns further than kMaxShutterIntervals allow, it is larger.
 int parts_of_turn(double turn, int intervals);
 
 /// The middle of the shutter: the time of the scene itself.

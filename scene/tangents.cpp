@@ -185,9 +185,9 @@ class Generator {
       weight += angle;
     }
     // Tangents that cancel, as at a pole, leave only rounding errors.
-    constexpr double kLeast = 1e-5;
+    constexpr double kMin = 1e-5;
     Vec3 tangent = any_perpendicular(normal);
-    if (sum.norm() > kLeast * weight) tangent = project(sum.normalized().cast<float>(), normal);
+    if (sum.norm() > kMin * weight) tangent = project(sum.normalized().cast<float>(), normal);
     return {tangent.x(), tangent.y(), tangent.z(), static_cast<float>(gradients_[group_.front() / 3].side)};
   }
 

@@ -41,8 +41,8 @@ int last_frame_of_animation(const RenderSettings& settings, const scene::Scene& 
     if (chosen.empty() || chosen == animation.name || chosen == std::to_string(i))
       seconds = std::max(seconds, animation.seconds);
   }
-  constexpr double kMost = 1e7, kRounding = 1e-4;
-  return static_cast<int>(std::min(seconds * settings.frames.fps + kRounding, kMost));
+  constexpr double kMax = 1e7, kRounding = 1e-4;
+  return static_cast<int>(std::min(seconds * settings.frames.fps + kRounding, kMax));
 }
 
 std::vector<int> sampled_frames(const std::vector<int>& frames) {

@@ -14,7 +14,7 @@ namespace {
 using nlohmann::json;
 
 /// The Tab key must not wait for larger files.
-constexpr std::uint64_t kMostBytes = std::uint64_t{64} << 20;
+constexpr std::uint64_t kMaxBytes = std::uint64_t{64} << 20;
 
 /// The JSON of a .gltf or .glb; empty where there is none.
 std::string json_of(const std::filesystem::path& path) {
@@ -30,7 +30,7 @@ std::string json_of(const std::filesystem::path& path) {
   } else {
     file.seekg(0);
   }
-  if (error || size > kMostBytes) return "";
+  if (error || size > kMaxBytes) return "";
   std::string text(size, '\0');
   file.read(text.data(), static_cast<std::streamsize>(size));
   return file ? text : "";

@@ -16,13 +16,13 @@ namespace {
 
 /// The beginning of a help, for a list of many.
 std::string short_help(const std::string& help) {
-  constexpr std::size_t kMost = 70;
+  constexpr std::size_t kMax = 70;
   std::size_t end = help.size();
   // "gate: numbers in a feature vector" has no end there.
-  constexpr std::size_t kLeast = 20;
-  for (const char* stop : {"; ", ": ", ". ", " ("}) end = std::min(end, help.find(stop, kLeast));
-  if (end <= kMost) return help.substr(0, end);
-  return help.substr(0, std::min(help.rfind(' ', kMost), kMost)) + " ...";
+  constexpr std::size_t kMin = 20;
+  for (const char* stop : {"; ", ": ", ". ", " ("}) end = std::min(end, help.find(stop, kMin));
+  if (end <= kMax) return help.substr(0, end);
+  return help.substr(0, std::min(help.rfind(' ', kMax), kMax)) + " ...";
 }
 
 template <class Names>

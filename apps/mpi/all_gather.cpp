@@ -14,7 +14,7 @@ using renderer::Bytes;
 
 /// Limit for MPI_Iallgatherv, which needs one contiguous buffer and int offsets, and costs a copy. More bytes
 /// are received by point-to-point messages, directly in their final buffers.
-constexpr std::uint64_t kMostAtOnce = std::uint64_t{1} << 20;
+constexpr std::uint64_t kMaxAtOnce = std::uint64_t{1} << 20;
 
 }  // namespace
 
@@ -55,7 +55,7 @@ class AllGathers::Gather {
         step_ = Step::sizes;
         break;
       case Step::sizes:
-        if (std::accumulate(sizes_.begin(), sizes_.end(), std::uint64_t{0}) <= kMostAtOnce) {
+        if (std::accumulate(sizes_.begin(), sizes_.end(), std::uint64_t{0}) <= kMaxAtOnce) {
           begin_bytes();
         } else {
           begin_many_bytes();

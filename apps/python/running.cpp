@@ -8,7 +8,7 @@
 #include "apps/python/keywords.h"
 #include "apps/python/waiting.h"
 #include "apps/settings/complete_settings.h"
-#include "apps/settings/show_well.h"
+#include "apps/settings/display_defaults.h"
 #include "apps/terminal/terminal.h"
 #include "apps/terminal/text.h"
 #include "base/clock.h"
@@ -53,7 +53,7 @@ apps::RenderSettings settings_for(const SceneData& scene, const py::dict& keywor
   if (!settings.given.contains("fps")) settings.frames.fps = scene.loading.frames.fps;
   if (!settings.given.contains("shutter")) settings.frames.shutter = scene.loading.frames.shutter;
   if (settings.frames.any()) settings.load.time.reset();
-  apps::show_well(settings);
+  apps::apply_display_defaults(settings);
   apps::complete_settings(settings);
   // The scene is loaded: its file may be gone.
   const std::string path = std::exchange(settings.scene, "");

@@ -33,7 +33,7 @@ double white_share(const renderer::Picture& picture, const renderer::DisplayOpti
 std::string lights_from_watts(const scene::Scene& scene) {
   // Sixteen times as bright as white: a lamp of 40 W at 2 m, as Blender exports it, gives 170.
   constexpr float kTooBright = 16.0f;
-  constexpr std::size_t kMostNames = 3;
+  constexpr std::size_t kMaxNames = 3;
   const float radius = std::max(0.5f * scene.bounds.diagonal().norm(), 1e-3f);
   std::set<std::string> names;
   for (const scene::PunctualLight& light : scene.lights) {
@@ -43,7 +43,7 @@ std::string lights_from_watts(const scene::Scene& scene) {
   const scene::LightNames all(scene);
   if (all.materials.empty() && names == all.lights) return "*=0.00146";
   const bool plain =
-      names.size() <= kMostNames && std::none_of(names.begin(), names.end(), [](const auto& name) {
+      names.size() <= kMaxNames && std::none_of(names.begin(), names.end(), [](const auto& name) {
         return name.empty() || name.find_first_of("*=;'\"") != std::string::npos;
       });
   if (!plain) return "NAME=0.00146";

@@ -144,10 +144,10 @@ std::vector<const scene::Instance*> nested_media(const scene::Scene& scene,
 }
 
 std::vector<std::string> describe_media(const scene::Scene& scene, const SceneRequirements& requirements) {
-  constexpr std::size_t kMostLines = 20;
+  constexpr std::size_t kMaxLines = 20;
   std::vector<std::string> lines;
   for (const scene::Instance* instance : nested_media(scene, requirements)) {
-    if (lines.size() == kMostLines) {
+    if (lines.size() == kMaxLines) {
       lines.emplace_back("...");
       break;
     }

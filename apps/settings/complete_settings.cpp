@@ -152,14 +152,14 @@ void refuse_without_effect(RenderSettings& settings) {
 /// Where --spp is not given, an error or a time decides how many samples there are, and a time also how many
 /// training steps of a preset.
 void open_samples(RenderSettings& settings) {
-  constexpr int kMostForError = 65536;
+  constexpr int kMaxForError = 65536;
   RenderOptions& o = settings.render;
   const bool timed = o.time_limit_seconds > 0.0;
   if (timed && settings.preset && !settings.given.contains("train-steps")) o.cache.train_steps.reset();
   if (settings.given.contains("spp") || (!timed && o.max_error <= 0.0)) return;
   if (!timed && uses_cache(o.integrator) && !o.cache.train_steps && o.cache.cache_in.empty())
     o.cache.train_steps = choose_training_steps(o, pixels_of(o));  // for the usual number of samples
-  o.spp = timed ? kUnlimitedSpp : kMostForError;
+  o.spp = timed ? kUnlimitedSpp : kMaxForError;
   o.spp_of_paths = 0;
 }
 

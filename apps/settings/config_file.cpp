@@ -49,13 +49,13 @@ class SubcommandConfig final : public CLI::ConfigTOML {
  private:
   /// Limits the size, as devices have no end, and refuses zero bytes, at which text would be cut later.
   std::string whole_text(std::istream& input) const {
-    constexpr std::size_t kMost = std::size_t{1} << 20;
-    std::string text(kMost + 1, '\0');
+    constexpr std::size_t kMax = std::size_t{1} << 20;
+    std::string text(kMax + 1, '\0');
     input.read(text.data(), static_cast<std::streamsize>(text.size()));
     text.resize(static_cast<std::size_t>(input.gcount()));
-    if (text.size() > kMost || text.find('\0') != std::string::npos) {
+    if (text.size() > kMax || text.find('\0') != std::string::npos) {
       throw InputError(fmt::format("cannot read '{}': {}, expected a configuration in TOML", config_->name,
-                                   text.size() > kMost ? "it has more than 1 MiB" : "it has a zero byte"));
+                                   text.size() > kMax ? "it has more than 1 MiB" : "it has a zero byte"));
     }
     constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
     return text.starts_with(kByteOrderMark) ? text.substr(kByteOrderMark.size()) : text;

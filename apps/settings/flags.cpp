@@ -69,7 +69,7 @@ void finish_flags(CLI::App& app, RenderSettings& settings) {
   if (config != nullptr && config->count() > 0) settings.config = config->as<std::string>();
 }
 
-RenderSettings read_render_words(const std::string& scene, const std::vector<std::string>& words) {
+RenderSettings parse_render_arguments(const std::string& scene, const std::vector<std::string>& words) {
   CLI::App app;
   RenderSettings settings;
   add_flags(app, option_table(settings));

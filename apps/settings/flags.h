@@ -31,6 +31,6 @@ void finish_flags(CLI::App& app, RenderSettings& settings);
 
 /// The settings of `gatelight render SCENE WORDS` with presets applied. Outputs may be missing. Call
 /// complete_settings() afterwards. Throws BadOption.
-RenderSettings read_render_words(const std::string& scene, const std::vector<std::string>& words);
+RenderSettings parse_render_arguments(const std::string& scene, const std::vector<std::string>& words);
 
 }  // namespace gatelight::apps

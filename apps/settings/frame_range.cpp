@@ -18,7 +18,7 @@ namespace gatelight::apps {
 namespace {
 
 constexpr int kFurthestFrame = 10'000'000;
-constexpr std::int64_t kMostFrames = 1'000'000;
+constexpr std::int64_t kMaxFrames = 1'000'000;
 
 /// The first alternative is a % that is written twice.
 const std::regex& places() {
@@ -106,7 +106,7 @@ FrameList parse_frames(const std::string& option, const std::string& text) {
   for (const std::string& part : split(text, ',')) {
     frames.ranges.push_back(parse_range(option, text, part));
     count += count_of(frames.ranges.back());
-    if (count > kMostFrames) throw BadOption({option, text, "", "at most 1,000,000 frames"});
+    if (count > kMaxFrames) throw BadOption({option, text, "", "at most 1,000,000 frames"});
   }
   return frames;
 }

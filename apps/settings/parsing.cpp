@@ -25,11 +25,11 @@ bool inside(double value, const RealRange& range) {
   return range.excludes_max ? value < range.max : value <= range.max;
 }
 
-constexpr double kLeastFloat = std::numeric_limits<float>::min();
+constexpr double kMinFloat = std::numeric_limits<float>::min();
 
 /// Smaller values are flushed to zero wherever they are used.
 bool vanishes(double value) {
-  return value != 0.0 && std::abs(value) < kLeastFloat;
+  return value != 0.0 && std::abs(value) < kMinFloat;
 }
 
 std::string describe(const IntegerRange& range) {
@@ -83,7 +83,7 @@ float parse_float(const std::string& option, const std::string& text, const Real
   const float rounded = static_cast<float>(value);
   if (!inside(static_cast<double>(rounded), range)) refuse(option, text, describe(range));
   if (vanishes(value)) {
-    refuse(option, text, fmt::format("a number of single precision: 0, or of at least {:.3g}", kLeastFloat));
+    refuse(option, text, fmt::format("a number of single precision: 0, or of at least {:.3g}", kMinFloat));
   }
   return rounded;
 }

@@ -38,7 +38,7 @@ RenderSettings settle(FlagValues& flags, bool named = false) {
   RenderSettings settings;
   for (bool dropped = true; dropped;) {
     dropped = false;
-    settings = read_render_words(kNoScene, words_of(flags));
+    settings = parse_render_arguments(kNoScene, words_of(flags));
     const renderer::RenderOptions& o = settings.render;
     // Axes do not choose: they compare integrators with and without a cache.
     if (o.choose_integrator && !named) {
@@ -139,12 +139,12 @@ class Planner {
  private:
   /// More combinations are a mistake: cells of a minute each would take a week.
   static void require_few(const SweepBlock& block) {
-    constexpr double kMost = 10000;
+    constexpr double kMax = 10000;
     double count = 1.0;
     for (const SweepAxis& axis : block.axes) count *= static_cast<double>(axis.values.size());
-    if (count > kMost) {
+    if (count > kMax) {
       throw BadOption({"vary", "", fmt::format("there are {:.0f} combinations of values", count),
-                       fmt::format("at most {:.0f}", kMost)});
+                       fmt::format("at most {:.0f}", kMax)});
     }
   }
 

@@ -79,7 +79,7 @@ struct NamedAxis {
   SweepAxis axis;
 };
 
-std::vector<NamedAxis> read_axes(const SweepWords& words) {
+std::vector<NamedAxis> read_axes(const SweepArguments& words) {
   std::vector<NamedAxis> axes;
   for (const auto& [flag, text] : words.axes) {
     const std::string name = flag.name + 2;
@@ -133,7 +133,7 @@ void read_scene_flag(const std::string& text, const std::vector<NamedAxis>& axes
 }
 
 /// Refuses flags that any row of the preset sets: each row must be what its name promises.
-void refuse_flags_of_rows(const SweepWords& words, const std::vector<SweepBlock>& rows,
+void refuse_flags_of_rows(const SweepArguments& words, const std::vector<SweepBlock>& rows,
                           const std::vector<NamedAxis>& axes, const SweepRequest& request) {
   // The preset of `render` in each row decides the integrator.
   std::set<std::string> flags = {"--integrator"};
@@ -182,7 +182,7 @@ void add_defaults(SweepBlock& block) {
   if (!names_flag(block, "--spp")) block.base.emplace_back("--spp", kDefaultCacheSpp);
 }
 
-void read_seeds(const SweepWords& words, int seeds, SweepRequest& request) {
+void read_seeds(const SweepArguments& words, int seeds, SweepRequest& request) {
   request.seeds = seeds;
   if (!words.seeds.empty()) request.seeds = static_cast<int>(parse_integer("seeds", words.seeds, kSeeds));
   if (const std::string* seed = find_flag(words.base, "--seed")) {
@@ -202,7 +202,7 @@ void read_seeds(const SweepWords& words, int seeds, SweepRequest& request) {
 }
 
 /// Whether no flag selects the pictures.
-bool wants_default_rows(const SweepWords& words) {
+bool wants_default_rows(const SweepArguments& words) {
   return words.preset.empty() && words.axes.empty() && words.vary.empty() && words.runs.empty() &&
          words.plans.empty() &&
          std::none_of(std::begin(kNoRowFlags), std::end(kNoRowFlags),
@@ -210,7 +210,7 @@ bool wants_default_rows(const SweepWords& words) {
 }
 
 /// A block for each named run, those of files first.
-std::vector<SweepBlock> read_named_runs(const SweepWords& words) {
+std::vector<SweepBlock> read_named_runs(const SweepArguments& words) {
   std::vector<NamedRun> runs;
   for (const std::string& file : words.plans) {
     for (NamedRun& run : read_runs(file)) runs.push_back(std::move(run));
@@ -273,7 +273,7 @@ const std::vector<std::string>& base_flag_names() {
   return names;
 }
 
-SweepRequest make_request(const SweepWords& words) {
+SweepRequest make_request(const SweepArguments& words) {
   SweepRequest request;
   request.scenes = name_scenes(words.scenes);
   const SweepPreset rows = sweep_preset(words.preset);
@@ -295,7 +295,7 @@ SweepRequest make_request(const SweepWords& words) {
   } else if (request.blocks.empty()) {
     request.blocks.push_back({.row = "", .base = {}, .axes = {}, .train_steps = kDefaultSteps, .run = {}});
   }
-  SweepWords with_preset = words;
+  SweepArguments with_preset = words;
   with_preset.base = base;
   const std::vector<NamedAxis> axes = read_axes(with_preset);
   for (const std::string& text : words.scene_flags) read_scene_flag(text, axes, request);

@@ -37,7 +37,7 @@ inline constexpr AxisFlag kAxisFlags[] = {
 /// the picture. Flags that `sweep` defines itself are not among them.
 const std::vector<std::string>& base_flag_names();
 
-struct SweepWords {
+struct SweepArguments {
   std::vector<std::string> scenes;
   std::string preset;  ///< of `sweep` or of `render`
   FlagValues base;
@@ -54,7 +54,7 @@ struct SweepWords {
 };
 
 /// Throws BadOption. Values of axes are checked by make_plan().
-SweepRequest make_request(const SweepWords& words);
+SweepRequest make_request(const SweepArguments& words);
 
 /// All settings of `gatelight sweep`.
 struct SweepSettings {

@@ -25,13 +25,13 @@
 namespace gatelight::apps {
 namespace {
 
-struct Answer {
+struct ExitRule {
   ErrorKind kind;
   ExitCode code;
   const char* advice;
 };
 
-constexpr Answer kAnswers[] = {
+constexpr ExitRule kExitRules[] = {
     {ErrorKind::option, kUsage, "see --help"},
     {ErrorKind::model, kUsage, "see gatelight render --help cache"},
     {ErrorKind::format, kUsage, "choose another file name"},
@@ -51,15 +51,15 @@ constexpr Answer kAnswers[] = {
 };
 
 Failure failure_of(const Error& error) {
-  const Answer& answer = *std::find_if(std::begin(kAnswers), std::end(kAnswers),
-                                       [&](const Answer& a) { return a.kind == error.kind(); });
+  const ExitRule& rule = *std::find_if(std::begin(kExitRules), std::end(kExitRules),
+                                       [&](const ExitRule& a) { return a.kind == error.kind(); });
   ErrorParts parts = error.parts();
   if (!parts.option.empty() && std::islower(static_cast<unsigned char>(parts.option.front())))
     parts.option.insert(0, "--");
   const bool plain = parts.option.empty();
   const char* const about =
       plain && error.kind() == ErrorKind::model ? "the cache cannot have these options: " : "";
-  return {answer.code, plain ? about + std::string(error.what()) : sentence(parts), answer.advice};
+  return {rule.code, plain ? about + std::string(error.what()) : sentence(parts), rule.advice};
 }
 
 /// oneTBB throws an error of no kind where it cannot start a thread.

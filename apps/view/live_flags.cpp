@@ -6,9 +6,9 @@
 #include <iterator>
 
 #include "apps/settings/complete_settings.h"
+#include "apps/settings/display_defaults.h"
 #include "apps/settings/flags.h"
 #include "apps/settings/option_table.h"
-#include "apps/settings/show_well.h"
 #include "apps/terminal/errors.h"
 #include "apps/terminal/text.h"
 
@@ -72,8 +72,8 @@ LiveFlags changed(LiveFlags flags, const FlagChange& change) {
 
 RenderSettings settings_of(const std::string& scene, const std::vector<std::string>& words,
                            const LiveFlags& flags) {
-  RenderSettings settings = read_render_words(scene, words_of(words, flags));
-  show_well(settings);
+  RenderSettings settings = parse_render_arguments(scene, words_of(words, flags));
+  apply_display_defaults(settings);
   complete_settings(settings);
   return settings;
 }

@@ -28,7 +28,7 @@ std::shared_ptr<const ShownPicture> PictureFile::shown_with(const LiveFlags& fla
 }
 
 PictureFile::Viewer& PictureFile::viewer(const std::string& name) {
-  if (!viewers_.contains(name) && viewers_.size() >= kMostViewers) viewers_.erase(viewers_.begin());
+  if (!viewers_.contains(name) && viewers_.size() >= kMaxViewers) viewers_.erase(viewers_.begin());
   Viewer& of = viewers_[name];
   if (!of.shown) of.shown = first_;
   return of;

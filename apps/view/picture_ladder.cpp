@@ -11,15 +11,15 @@ constexpr int kStepsOfDraft = 64, kStepsOfPreview = 256;
 constexpr int kSamplesOfPreview = 2, kSamplesOfRefined = 6;
 /// A draft takes about this long, in seconds.
 constexpr double kSlow = 0.1, kFast = 0.05;
-constexpr double kLeastDivisor = 1.5, kMostDivisor = 8.0;
-constexpr int kLeastPixels = 32;
+constexpr double kMinDivisor = 1.5, kMaxDivisor = 8.0;
+constexpr int kMinPixels = 32;
 
 /// The layers by which the page tells what is under the pointer.
 constexpr renderer::Aov kGuides[] = {renderer::Aov::albedo, renderer::Aov::normal, renderer::Aov::depth,
                                      renderer::Aov::position, renderer::Aov::instance_id};
 
 int divided(int pixels, double divisor) {
-  return std::max(std::min(pixels, kLeastPixels), static_cast<int>(std::lround(pixels / divisor)));
+  return std::max(std::min(pixels, kMinPixels), static_cast<int>(std::lround(pixels / divisor)));
 }
 
 }  // namespace
@@ -51,7 +51,7 @@ renderer::RenderOptions options_of_stage(Stage stage, const renderer::RenderOpti
 double next_divisor(double divisor, double seconds) {
   if (seconds > kSlow) divisor *= 1.25;
   if (seconds < kFast) divisor /= 1.25;
-  return std::clamp(divisor, kLeastDivisor, kMostDivisor);
+  return std::clamp(divisor, kMinDivisor, kMaxDivisor);
 }
 
 }  // namespace gatelight::apps

@@ -17,7 +17,7 @@
 namespace gatelight::apps {
 
 /// A further one takes the place of another.
-inline constexpr std::size_t kMostViewers = 64;
+inline constexpr std::size_t kMaxViewers = 64;
 
 /// A picture that a viewer has got. It does not change.
 struct ShownPicture {

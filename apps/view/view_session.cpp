@@ -59,7 +59,7 @@ ViewSession::Viewer& ViewSession::viewer(const std::string& name) {
     found->second.seen = Clock::now();
     return found->second;
   }
-  if (viewers_.size() >= kMostViewers) viewers_.erase(oldest(viewers_));
+  if (viewers_.size() >= kMaxViewers) viewers_.erase(oldest(viewers_));
   Viewer& made = viewers_[name];
   made.settings = base_;
   ++changes_;

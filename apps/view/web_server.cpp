@@ -15,7 +15,7 @@ namespace gatelight::apps {
 namespace {
 
 constexpr const char* kHost = "127.0.0.1";
-constexpr std::size_t kMostBody = 1 << 16;
+constexpr std::size_t kMaxBody = 1 << 16;
 /// Each page has up to two requests that wait for news.
 constexpr std::size_t kThreads = 32;
 constexpr int kSeconds = 5;
@@ -80,7 +80,7 @@ struct WebServer::Implementation {
 WebServer::WebServer(int port, AnswerRequest answer) : implementation_(std::make_unique<Implementation>()) {
   httplib::Server& server = implementation_->server;
   server.new_task_queue = [] { return new httplib::ThreadPool(kThreads); };
-  server.set_payload_max_length(kMostBody);
+  server.set_payload_max_length(kMaxBody);
   server.set_read_timeout(kSeconds);
   server.set_write_timeout(kSeconds);
   server.set_tcp_nodelay(true);

@@ -52,9 +52,9 @@ void sync_folder(const fs::path& folder) {
 }  // namespace
 
 fs::path replaced_file(fs::path path) {
-  constexpr int kMostLinks = 40;  // as many as Linux follows
+  constexpr int kMaxLinks = 40;  // as many as Linux follows
   std::error_code error;
-  for (int i = 0; i < kMostLinks && fs::is_symlink(path, error); ++i) {
+  for (int i = 0; i < kMaxLinks && fs::is_symlink(path, error); ++i) {
     const fs::path there = fs::read_symlink(path, error);
     if (error) break;
     path = path.parent_path() / there;  // an absolute `there` replaces the folder

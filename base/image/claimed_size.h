@@ -20,7 +20,7 @@ inline void check_claimed_size(std::int64_t width, std::int64_t height, std::int
   constexpr std::int64_t kMaxSide = 1 << 16;
   constexpr std::int64_t kMaxValues = std::int64_t{1} << 31;
   constexpr std::int64_t kSmallValues = std::int64_t{1} << 24;
-  constexpr std::int64_t kMostPerByte = 1 << 14;  ///< values per byte of the file
+  constexpr std::int64_t kMaxPerByte = 1 << 14;  ///< values per byte of the file
   if (width < 1 || height < 1 || channels < 1) throw std::runtime_error("it has no pixels");
   const bool fits = width <= kMaxSide && height <= kMaxSide && channels <= kMaxSide;
   if (!fits || width * height > kMaxValues / channels) {
@@ -30,7 +30,7 @@ inline void check_claimed_size(std::int64_t width, std::int64_t height, std::int
   std::error_code error;
   const auto bytes = static_cast<std::int64_t>(std::filesystem::file_size(path, error));
   const std::int64_t values = width * height * channels;
-  if (error || (values > kSmallValues && values / kMostPerByte > bytes)) {
+  if (error || (values > kSmallValues && values / kMaxPerByte > bytes)) {
     throw std::runtime_error(
         fmt::format("its {} x {} pixels of {} channels are too many for a file of {} bytes", width, height,
                     channels, bytes));

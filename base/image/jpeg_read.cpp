@@ -17,7 +17,7 @@ namespace gatelight {
 namespace {
 
 /// A progressive file of some kilobytes may hold thousands of scans, each of which visits all pixels.
-constexpr int kMostScans = 500;
+constexpr int kMaxScans = 500;
 
 /// CMYK as JPEG files hold it, with 255 for no ink, to RGB.
 void to_rgb(const std::uint8_t* cmyk, std::size_t pixels, std::uint8_t* rgb) {
@@ -67,7 +67,7 @@ struct JpegReader::Decoder {
 
   static void on_progress(j_common_ptr common) {
     Decoder& decoder = self(common);
-    if (decoder.info.input_scan_number <= kMostScans) return;
+    if (decoder.info.input_scan_number <= kMaxScans) return;
     std::strncpy(decoder.damage, "too many scans", sizeof decoder.damage - 1);
     std::longjmp(decoder.failed, 1);
   }

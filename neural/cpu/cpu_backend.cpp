@@ -329,8 +329,8 @@ void CpuBackend::query(const QueryBatch& batch, const QueryOptions& options, std
   const KernelNetwork& network = network_.query_kernel(options.averaged, bf16);
   const KernelPoints points = kernel_points(*model_, batch);
   const std::uint64_t scratch_floats = table_.scratch_floats(encoder, network);
-  constexpr std::size_t kMost = 64, kFewest = 4, kChunks = 64;
-  const std::size_t tiles = std::clamp(batch.size / (kTile * kChunks), kFewest, kMost);
+  constexpr std::size_t kMax = 64, kFewest = 4, kChunks = 64;
+  const std::size_t tiles = std::clamp(batch.size / (kTile * kChunks), kFewest, kMax);
   for_each_range(batch.size, tiles * kTile, [&](std::size_t begin, std::size_t end) {
     const FlushDenormals flush;
     KernelQuery q = {};
@@ -376,10 +376,10 @@ std::unique_ptr<Backend> make_cpu_backend(std::shared_ptr<const Model> model, co
                                           std::optional<simd::Isa> isa) {
   check_options(*model, options);
   // Kernels gather the words of levels with signed 32-bit offsets.
-  constexpr std::size_t kMostLevels = (std::size_t{1} << 31) / (sizeof(GateSurfaceLevel) / 4);
-  if (model->gate.levels.size() >= kMostLevels)
+  constexpr std::size_t kMaxLevels = (std::size_t{1} << 31) / (sizeof(GateSurfaceLevel) / 4);
+  if (model->gate.levels.size() >= kMaxLevels)
     throw BadConfiguration(fmt::format("levels of all surfaces: {}, expected less than {}",
-                                       model->gate.levels.size(), kMostLevels));
+                                       model->gate.levels.size(), kMaxLevels));
   return std::make_unique<CpuBackend>(std::move(model), options, simd::select_isa(isa));
 }
 

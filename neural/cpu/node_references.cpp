@@ -5,11 +5,11 @@
 namespace gatelight::neural::cpu {
 
 Buckets make_buckets(std::uint32_t nodes, std::uint32_t references) {
-  constexpr std::uint32_t kFewest = 128, kMost = 512, kLeastShift = 4;
-  const std::uint32_t wanted = std::clamp(std::bit_floor(references / 2), kFewest, kMost);
+  constexpr std::uint32_t kFewest = 128, kMax = 512, kMinShift = 4;
+  const std::uint32_t wanted = std::clamp(std::bit_floor(references / 2), kFewest, kMax);
   Buckets b;
   b.nodes = nodes;
-  b.shift = std::max(kLeastShift, static_cast<std::uint32_t>(std::bit_width(nodes / wanted)));
+  b.shift = std::max(kMinShift, static_cast<std::uint32_t>(std::bit_width(nodes / wanted)));
   b.count = nodes == 0 ? 0 : ((nodes - 1) >> b.shift) + 1;
   return b;
 }

@@ -14,11 +14,11 @@ namespace gatelight::neural::cpu {
 /// A batch is cut into chunks of whole tiles, depending only on its size: at most 64, because the network's
 /// gradients are summed for each.
 struct Chunks {
-  static constexpr std::uint32_t kMost = 64;
+  static constexpr std::uint32_t kMax = 64;
 
   explicit Chunks(std::uint32_t batch_records = 0) : records(batch_records) {
     const std::uint32_t all = tiles();
-    tiles_of_chunk = std::max((all + kMost - 1) / kMost, 1u);
+    tiles_of_chunk = std::max((all + kMax - 1) / kMax, 1u);
     count = (all + tiles_of_chunk - 1) / tiles_of_chunk;
   }
   std::uint32_t tiles() const { return records / kTile + (records % kTile > 0 ? 1 : 0); }

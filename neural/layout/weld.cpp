@@ -36,8 +36,8 @@ std::uint64_t hash(const Bits& bits) {
 }  // namespace
 
 std::vector<std::uint32_t> weld_vertices(std::span<const Float3> positions) {
-  constexpr std::size_t kMost = std::size_t{1} << 31;
-  if (positions.size() >= kMost)
+  constexpr std::size_t kMax = std::size_t{1} << 31;
+  if (positions.size() >= kMax)
     throw BadConfiguration(fmt::format("positions: {}, expected fewer than 2^31", positions.size()));
   // A slot holds the upper half of the hash and the smallest index of the position plus one. A position keeps
   // its slot and the smallest index wins, so the order of the threads does not matter.

@@ -63,8 +63,8 @@ std::string refusal(const DeviceFacts& d) {
   if (!d.buffer_addresses) return "lacks bufferDeviceAddress";
   if (d.workgroup_threads < kWorkgroupThreads)
     return fmt::format("has workgroups of {} threads, {} are needed", d.workgroup_threads, kWorkgroupThreads);
-  if (d.shared_bytes < kLeastSharedBytes)
-    return fmt::format("has {} bytes of shared memory, {} are needed", d.shared_bytes, kLeastSharedBytes);
+  if (d.shared_bytes < kMinSharedBytes)
+    return fmt::format("has {} bytes of shared memory, {} are needed", d.shared_bytes, kMinSharedBytes);
   return "";
 }
 

@@ -23,7 +23,7 @@ struct DeviceFacts {
 };
 
 inline constexpr std::uint32_t kWorkgroupThreads = 128;
-inline constexpr std::uint32_t kLeastSharedBytes = 16384;
+inline constexpr std::uint32_t kMinSharedBytes = 16384;
 
 /// The reason why a device cannot be used; empty if it can.
 std::string refusal(const DeviceFacts& device);

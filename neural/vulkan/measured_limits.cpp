@@ -16,7 +16,7 @@ namespace {
 constexpr std::uint64_t kGroups = 8192;
 constexpr std::uint64_t kOperationsARound = 64;
 constexpr double kLongEnough = 0.02;  // seconds, so that launch overhead is negligible
-constexpr std::uint32_t kMostRounds = 1u << 20;
+constexpr std::uint32_t kMaxRounds = 1u << 20;
 
 class Bench {
  public:
@@ -72,7 +72,7 @@ MeasuredLimits measure_limits(Machine& machine, std::uint64_t bytes) {
   return translated(machine.device().name(), "measuring", [&] {
     Bench bench(machine, bytes);
     std::uint32_t rounds = 16;
-    while (bench.seconds(Shader::limit_fma, rounds, 1) < kLongEnough && rounds < kMostRounds) rounds *= 2;
+    while (bench.seconds(Shader::limit_fma, rounds, 1) < kLongEnough && rounds < kMaxRounds) rounds *= 2;
     limits.operations_per_second = static_cast<double>(kGroups * kWorkgroupThreads * kOperationsARound) *
                                    rounds / bench.least_seconds(Shader::limit_fma, rounds, 1);
 

@@ -13,7 +13,7 @@ namespace {
 using Constants = std::vector<std::uint32_t>;
 
 constexpr std::uint32_t kParametersAGroup = 8;  // of update_network
-constexpr std::uint64_t kMostLoopingGroups = 65536;
+constexpr std::uint64_t kMaxLoopingGroups = 65536;
 
 bool is_dense(const StepPlan& plan) {
   return plan.options.update == FeatureUpdate::dense;
@@ -53,7 +53,7 @@ void record_gradients(const StepPlan& plan, Commands& commands) {
   const std::uint32_t features = plan.model.parameters.features;
   const std::uint64_t threads = std::uint64_t{plan.cut.references} * features;
   commands.dispatch(Shader::sum_pieces, Constants{features, per_triangle(plan)},
-                    std::min(groups_for(threads), kMostLoopingGroups), sorted);
+                    std::min(groups_for(threads), kMaxLoopingGroups), sorted);
   commands.barrier();
 }
 
@@ -69,7 +69,7 @@ void record_updates(const StepPlan& plan, Commands& commands) {
         Shader::update_nodes,
         Constants{model.parameters.features, per_triangle(plan), is_dense(plan) ? 1u : 0u,
                   features.floats() ? 1u : 0u, features.halves() ? 1u : 0u, features.averages() ? 1u : 0u},
-        std::min(groups_for(nodes), kMostLoopingGroups));
+        std::min(groups_for(nodes), kMaxLoopingGroups));
   }
   commands.barrier();
   record_training_pack(model, commands);

@@ -7,20 +7,20 @@ namespace gatelight::neural::vulkan {
 
 namespace {
 
-constexpr std::uint64_t kMostTile = 64;
+constexpr std::uint64_t kMaxTile = 64;
 constexpr std::uint64_t kOutputRows = 16;
 constexpr std::uint64_t kDigits = 16;
-// The sums of weight gradients of all workgroups take about kPartialBytes, with kFewestGroups to kMostGroups
+// The sums of weight gradients of all workgroups take about kPartialBytes, with kFewestGroups to kMaxGroups
 // workgroups.
 constexpr std::uint64_t kPartialBytes = std::uint64_t{64} << 20;
 constexpr std::uint64_t kFewestGroups = 16;
-constexpr std::uint64_t kMostGroups = 1024;
+constexpr std::uint64_t kMaxGroups = 1024;
 
 // A row has one float more than the tile has records, and one float per record lies behind the rows.
 std::uint32_t fitting_tile(std::uint64_t rows, std::uint32_t shared_bytes) {
   const std::uint64_t floats = shared_bytes / 4;
   const std::uint64_t most = (floats - rows) / (rows + 1);
-  return static_cast<std::uint32_t>(std::bit_floor(std::clamp<std::uint64_t>(most, 1, kMostTile)));
+  return static_cast<std::uint32_t>(std::bit_floor(std::clamp<std::uint64_t>(most, 1, kMaxTile)));
 }
 
 }  // namespace
@@ -39,7 +39,7 @@ StepCut cut_step(const Model& model, std::uint64_t records, std::uint32_t tile) 
   const std::uint64_t references = records * model.nodes_per_point();
   const std::uint64_t tiles = (records + tile - 1) / tile;
   const std::uint64_t groups =
-      std::clamp(kPartialBytes / (4 * model.parameters.network_count()), kFewestGroups, kMostGroups);
+      std::clamp(kPartialBytes / (4 * model.parameters.network_count()), kFewestGroups, kMaxGroups);
   StepCut cut;
   cut.size = static_cast<std::uint32_t>(records);
   cut.references = static_cast<std::uint32_t>(references);

@@ -71,7 +71,7 @@ CacheSetup read_cache_setup(SafetensorsReader& file) {
   // Scouting keeps this bound. The number of paths of a step follows from it, so a file must not set it
   // arbitrarily low.
   for (const float records : {setup.records_per_path, setup.records_per_short_path}) {
-    if (records < kLeastRecordsPerPath)
+    if (records < kMinRecordsPerPath)
       file.fail(fmt::format("tensor '{}': {} records of a path, expected at least 1/64", kScales, records));
   }
   return setup;

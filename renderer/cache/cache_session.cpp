@@ -26,7 +26,7 @@ namespace gatelight::renderer {
 namespace {
 
 /// Largest number of paths of a step.
-constexpr double kMostPaths = 1 << 24;
+constexpr double kMaxPaths = 1 << 24;
 
 void check_options(const RenderOptions& all) {
   const CacheOptions& options = all.cache;
@@ -34,10 +34,10 @@ void check_options(const RenderOptions& all) {
     throw BadOption(
         {"training-points", "picture", "does not go with these options",
          "`integrator` nrc, `view` final and no `candidates`, `samples-per-point` and `train-path-length`"});
-  if (static_cast<double>(options.batch) * options.samples_per_point > kMostPaths) {
+  if (static_cast<double>(options.batch) * options.samples_per_point > kMaxPaths) {
     throw BadOption({"samples-per-point", fmt::format("{}", options.samples_per_point),
                      fmt::format("is too many for a `batch` of {}", options.batch),
-                     fmt::format("at most {} paths", static_cast<int>(kMostPaths))});
+                     fmt::format("at most {} paths", static_cast<int>(kMaxPaths))});
   }
 }
 

@@ -12,7 +12,7 @@
 namespace gatelight::renderer {
 
 /// At most 64 paths are traced for one record.
-inline constexpr float kLeastRecordsPerPath = 1.0f / 64.0f;
+inline constexpr float kMinRecordsPerPath = 1.0f / 64.0f;
 
 /// Results of scouting. They decide the layout of the features and the scale of targets.
 struct CacheSetup {

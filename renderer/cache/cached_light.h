@@ -34,8 +34,8 @@ struct CachedLight {
 /// The factor from an answer to radiance: the wide lobes' directional albedo, bounded from below because
 /// targets are divided by it.
 inline Color cache_reflectance(const Color& wide_albedo) {
-  constexpr float kLeast = 1e-3f;
-  return wide_albedo.max(kLeast);
+  constexpr float kMin = 1e-3f;
+  return wide_albedo.max(kMin);
 }
 /// Whether the albedo of the wide lobes is large enough to learn their light.
 inline bool worth_caching(const Color& wide_albedo) {

@@ -22,7 +22,7 @@ const Roulette& narrow_roulette(const PathPlan& plan) {
 
 /// Light at a vertex is summed up in units of the path's start. With hundreds of nested media between the
 /// two, single precision cannot represent both, and the vertex makes no record.
-constexpr float kLeastScale = 1e-20f;
+constexpr float kMinScale = 1e-20f;
 
 }  // namespace
 
@@ -222,8 +222,8 @@ std::int32_t CachedPaths::add_query_vertex(const Path& path, const SurfacePoint&
 
 std::int32_t CachedPaths::add_vertex(Path& path, const SurfacePoint& point, bool& record,
                                      const PathPlan& plan, PathBatch& batch) const {
-  record = record && worth_caching(point.albedo) && path.scale() > kLeastScale &&
-           path.scale() < 1.0f / kLeastScale;
+  record =
+      record && worth_caching(point.albedo) && path.scale() > kMinScale && path.scale() < 1.0f / kMinScale;
   const auto index = static_cast<std::int32_t>(batch.vertices.size());
   PathVertex& v = batch.vertices.emplace_back(
       PathVertex{path.vertex, path.index, path.weights.scattered, path.weights.cached});

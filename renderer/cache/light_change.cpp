@@ -17,11 +17,11 @@ namespace {
 /// Cells along the scene's diagonal. Where the records of a small one leave it open whether its light has
 /// changed, the larger one around decides.
 constexpr std::array<float, 2> kCells = {16.0f, 4.0f};
-constexpr double kLeastRecords = 64.0;
+constexpr double kMinRecords = 64.0;
 /// A cell has changed where its mean error is this much of its light, and this many standard errors.
-constexpr double kLeastError = 0.3;
+constexpr double kMinError = 0.3;
 /// The same for the whole scene: answers may be far off in a cell, but not in the mean of all.
-constexpr double kLeastErrorOfAll = 0.05;
+constexpr double kMinErrorOfAll = 0.05;
 constexpr double kStandardErrors = 4.0;
 /// Noise of light has a long tail, which few records seldom meet: a cell's relative variance is at least this
 /// share of that of all records.
@@ -41,7 +41,7 @@ struct Cell {
   }
   /// The error's mean over the light; 0 where it is small, nothing where that is not certain.
   std::optional<double> change(double least_variance, double least_error) const {
-    if (records < kLeastRecords) return std::nullopt;
+    if (records < kMinRecords) return std::nullopt;
     const double brightness = light();
     if (!(brightness > 0.0)) return 0.0;
     const double error = std::abs(errors) / records / brightness;
@@ -125,13 +125,13 @@ double light_change(const scene::Scene& scene, const RecordBatch& group, std::sp
       m.of->add(m.values.first, m.values.second);
     }
     each([&](std::size_t, Met& m) {
-      if (!m.change && m.of) m.change = m.of->change(least_variance, kLeastError);
+      if (!m.change && m.of) m.change = m.of->change(least_variance, kMinError);
       m.of = nullptr;
     });
   }
   double sum = 0.0;
   for (const Met& m : met) sum += m.change.value_or(0.0);
-  return std::max(sum / all.records, all.change(least_variance, kLeastErrorOfAll).value_or(0.0));
+  return std::max(sum / all.records, all.change(least_variance, kMinErrorOfAll).value_or(0.0));
 }
 
 }  // namespace gatelight::renderer

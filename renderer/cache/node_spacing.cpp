@@ -7,7 +7,7 @@ namespace gatelight::renderer {
 namespace {
 
 /// Bounds of the scales: an instance at a hundredth of the typical distance, and one at eight times that.
-constexpr int kLeastExponent = -7;
+constexpr int kMinExponent = -7;
 constexpr int kGreatestExponent = 3;
 
 /// Largest number of nodes of an instance for each point on it. This is a hundred times what a wholly visible
@@ -48,7 +48,7 @@ NodeSpacing PixelWidths::spacing(float pixels, std::span<const double> areas) co
     const double wanted = std::max(static_cast<double>(pixels * width), least);
     const auto exponent =
         static_cast<int>(std::lround(std::log2(wanted / static_cast<double>(result.spacing))));
-    result.scales[i] = std::ldexp(1.0f, std::clamp(exponent, kLeastExponent, kGreatestExponent));
+    result.scales[i] = std::ldexp(1.0f, std::clamp(exponent, kMinExponent, kGreatestExponent));
   }
   return result;
 }

@@ -69,7 +69,7 @@ std::vector<int> records_by_path(const PathBatch& batch) {
 /// Mean number of records of a path, from which a step chooses its number of paths. 1 where there are no
 /// records at all.
 float records_per_path(double records, double paths) {
-  return records > 0.0 ? static_cast<float>(std::max(records / paths, double{kLeastRecordsPerPath})) : 1.0f;
+  return records > 0.0 ? static_cast<float>(std::max(records / paths, double{kMinRecordsPerPath})) : 1.0f;
 }
 
 /// Mean of the values, each limited to a hundred times the median of those above zero. One path that hits a

@@ -24,8 +24,8 @@ constexpr std::size_t kStartsOfRange = 256;
 /// Starts of a block, which one thread traces: those of a tile of the picture, or fewer where many threads
 /// would have none.
 std::size_t block_size(std::size_t count) {
-  constexpr std::size_t kMost = kTile * kTile, kFewest = 64, kBlocks = 64;
-  return std::clamp((count / kBlocks + 15) / 16 * 16, kFewest, kMost);
+  constexpr std::size_t kMax = kTile * kTile, kFewest = 64, kBlocks = 64;
+  return std::clamp((count / kBlocks + 15) / 16 * 16, kFewest, kMax);
 }
 
 // Sampler dimensions of a start, beyond those of its path.

@@ -34,8 +34,8 @@ bool monitor(void* user, double done) {
 }
 
 int mebibytes(std::size_t bytes) {
-  constexpr std::size_t kMost = std::numeric_limits<int>::max();
-  return static_cast<int>(std::min(bytes >> 20, kMost));
+  constexpr std::size_t kMax = std::numeric_limits<int>::max();
+  return static_cast<int>(std::min(bytes >> 20, kMax));
 }
 
 bool has_guides(const NoisyImage& image) {
@@ -131,7 +131,7 @@ Denoiser::Denoiser(const OidnLibrary& library, int threads, std::size_t memory_l
 Denoiser::~Denoiser() = default;
 
 Denoiser::Filter& Denoiser::filter_of(const FilterKind& kind) {
-  constexpr std::size_t kMost = 8;  // a picture has three sizes: a band, the last one, and a strip
+  constexpr std::size_t kMax = 8;  // a picture has three sizes: a band, the last one, and a strip
   const auto found = std::find_if(filters_.begin(), filters_.end(),
                                   [&](const auto& filter) { return filter->kind() == kind; });
   if (found != filters_.end()) {
@@ -139,7 +139,7 @@ Denoiser::Filter& Denoiser::filter_of(const FilterKind& kind) {
   } else {
     filters_.insert(filters_.begin(),
                     std::make_unique<Filter>(api_, device_.get(), kind, memory_limit_bytes_));
-    if (filters_.size() > kMost) filters_.pop_back();
+    if (filters_.size() > kMax) filters_.pop_back();
   }
   return *filters_.front();
 }

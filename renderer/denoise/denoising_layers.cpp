@@ -18,7 +18,7 @@ constexpr const char* kColor = "denoising-color";
 constexpr const char* kAlbedo = "denoising-albedo";
 constexpr const char* kNormal = "denoising-normal";
 constexpr const char* kAlpha = "denoising-alpha";
-constexpr int kMostFactor = 2;
+constexpr int kMaxFactor = 2;
 
 std::size_t size(int x) {
   return static_cast<std::size_t>(x);
@@ -92,7 +92,7 @@ void complete_guides(Samples& samples) {
 
 /// The size of the samples over that of the picture; 0: there are none.
 int factor_of(const Picture& picture) {
-  for (int factor = 1; factor <= kMostFactor; ++factor) {
+  for (int factor = 1; factor <= kMaxFactor; ++factor) {
     if (picture.find(name_of(kColor, factor, 0, 0))) return factor;
   }
   return 0;

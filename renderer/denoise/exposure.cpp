@@ -54,8 +54,8 @@ float exposure_of(int width, int height, const ReadRows& color) {
     bins += 1.0;
   }
   if (bins == 0.0) return 1.0f;
-  constexpr double kMost = 1e30;  // a float holds its inverse too
-  return static_cast<float>(std::clamp(kKey / std::exp2(logarithms / bins), 1.0 / kMost, kMost));
+  constexpr double kMax = 1e30;  // a float holds its inverse too
+  return static_cast<float>(std::clamp(kKey / std::exp2(logarithms / bins), 1.0 / kMax, kMax));
 }
 
 }  // namespace gatelight::renderer

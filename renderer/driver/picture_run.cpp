@@ -72,8 +72,8 @@ class PictureRun {
   }
 
   Clock::time_point time_at(double seconds) const {
-    constexpr double kMost = 1e9;  // a clock counts some centuries at most
-    const std::chrono::duration<double> after(std::min(seconds, kMost));
+    constexpr double kMax = 1e9;  // a clock counts some centuries at most
+    const std::chrono::duration<double> after(std::min(seconds, kMax));
     return sums_.begin + std::chrono::duration_cast<Clock::duration>(after);
   }
 

@@ -18,9 +18,9 @@ namespace {
 constexpr int kTimedShadowPoints = 64;
 
 CaughtShadows caught_shadows(const PreparedPicture& picture, double samples_per_pixel) {
-  constexpr int kFewest = 32, kMost = 512;
+  constexpr int kFewest = 32, kMax = 512;
   if (picture.world->catchers.empty()) return {};
-  const int wanted = std::clamp(static_cast<int>(samples_per_pixel), kFewest, kMost);
+  const int wanted = std::clamp(static_cast<int>(samples_per_pixel), kFewest, kMax);
   const int points = picture.options.time_limit_seconds > 0.0 ? kTimedShadowPoints : wanted;
   return [&picture, points](const PixelRect& rect) {
     return catch_shadows(*picture.world, picture.camera, picture.filter, picture.options, rect, points);

@@ -201,10 +201,10 @@ void PreparedPicture::choose_sky() {
   if (!asks_for_sky) return;
   bool sky = kept_sky.value_or(true);
   if (judges_view()) {
-    constexpr double kMostDark = 0.5, kLeastGain = 0.5;
+    constexpr double kMaxDark = 0.5, kMinGain = 0.5;
     const double dark = dark_with(false);
     // In a closed room it would show nothing more.
-    sky = agreed(ranks_, dark > kMostDark && dark_with(true) < kLeastGain * dark);
+    sky = agreed(ranks_, dark > kMaxDark && dark_with(true) < kMinGain * dark);
   }
   options.environment.automatic = options_of_picture.environment.automatic = sky;
   build_world(world_options());

@@ -16,12 +16,12 @@ namespace gatelight::renderer {
 namespace {
 
 /// A cache of less steps is worse than none, so a time limit leaves at least these.
-constexpr std::uint64_t kLeastSteps = 16;
+constexpr std::uint64_t kMinSteps = 16;
 
 /// Each frame of an animation trains this share of the steps of a cache that knows nothing, and at least
 /// these. Their paths are samples of the picture, and what is learned adds up over the frames (README.md).
 constexpr int kShareOfFresh = 2;
-constexpr int kLeastKept = 32;
+constexpr int kMinKept = 32;
 /// After a change of the light the optimiser learns as fast as after so many steps.
 constexpr std::uint32_t kMemoryAfterChange = 32;
 
@@ -103,7 +103,7 @@ void Training::train(int steps, Film& film, const std::function<void()>& after_g
     last_seconds = now;
     last_step = step;
     const bool late = !group_fits(now, seconds * static_cast<double>(next), end);
-    return step >= first_step_ + kLeastSteps && agreed(ranks, late);
+    return step >= first_step_ + kMinSteps && agreed(ranks, late);
   };
   watch.rebalance = [&](const std::vector<RankWork>& work) { tiles.rebalance(film, work); };
   watch.after_group = after_group;
@@ -142,7 +142,7 @@ void Training::train_on(Film& film, FrameMemory& memory) {
     first_step_ = 0;
     return train(fresh_steps_, film);
   }
-  const int usual = std::min(std::max(fresh_steps_ / kShareOfFresh, kLeastKept), fresh_steps_);
+  const int usual = std::min(std::max(fresh_steps_ / kShareOfFresh, kMinKept), fresh_steps_);
   const int more = steps_after_change(change, fresh_steps_ - usual);
   if (more > 0) session_->forget_beyond(kMemoryAfterChange);
   train(usual + more, film);

@@ -40,10 +40,10 @@ std::optional<std::array<std::size_t, 3>> vector_channels(const Layer& layer) {
 }
 
 std::string describe_channels(const Layer& layer) {
-  constexpr std::size_t kMost = 8;
-  const std::span names(layer.channels.data(), std::min(layer.channels.size(), kMost));
+  constexpr std::size_t kMax = 8;
+  const std::span names(layer.channels.data(), std::min(layer.channels.size(), kMax));
   return fmt::format("channels {}{}, expected R, G and B, or Y", fmt::join(names, ", "),
-                     layer.channels.size() > kMost ? ", ..." : "");
+                     layer.channels.size() > kMax ? ", ..." : "");
 }
 
 }  // namespace gatelight::renderer

@@ -63,10 +63,10 @@ Color agx(const Color& color) {
   static const Matrix3f out = rows({1.19687900512017f, -0.0980208811401368f, -0.0990297440797205f,
                                     -0.0528968517574562f, 1.15190312990417f, -0.0989611768448433f,
                                     -0.0529716355144438f, -0.0980434501171241f, 1.15107367264116f});
-  constexpr float kLeast = -12.47393f, kMost = 4.026069f;  // stops
+  constexpr float kMin = -12.47393f, kMax = 4.026069f;  // stops
   const Color x =
-      ((times(in, color).max(1e-10f).log() * (1.0f / std::log(2.0f))).max(kLeast).min(kMost) - kLeast) /
-      (kMost - kLeast);
+      ((times(in, color).max(1e-10f).log() * (1.0f / std::log(2.0f))).max(kMin).min(kMax) - kMin) /
+      (kMax - kMin);
   const Color x2 = x * x, x4 = x2 * x2;
   const Color curve = 15.5f * x4 * x2 - 40.14f * x4 * x + 31.96f * x4 - 6.868f * x2 * x + 0.4298f * x2 +
                       0.1191f * x - 0.00232f;

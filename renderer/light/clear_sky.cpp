@@ -14,12 +14,12 @@ namespace gatelight::renderer {
 namespace {
 
 constexpr int kSkyWidth = 512, kSkyHeight = 256;
-constexpr float kMostLight = 1e30f;  ///< bound of radiance and irradiance, so that sums stay finite
+constexpr float kMaxLight = 1e30f;  ///< bound of radiance and irradiance, so that sums stay finite
 
 /// Clamps at zero, because Rec. 709 cannot represent all colours of the sky.
 Color displayable(const Spectrum& spectrum, float scale) {
   const Color color = daylight_color(spectrum);
-  return (color.max(0.0f) * scale).min(kMostLight);
+  return (color.max(0.0f) * scale).min(kMaxLight);
 }
 
 double row_elevation(double row) {
@@ -75,7 +75,7 @@ ClearSky make_clear_sky(const SkyOptions& options, float scale) {
     irradiance = displayable(atmosphere.sun_irradiance(lit), factor);
 
   const Color received = level_irradiance(texels) + irradiance * std::max(0.0f, to_sun.y());
-  const Color ground = (received * (options.ground * kInvPi)).min(kMostLight);
+  const Color ground = (received * (options.ground * kInvPi)).min(kMaxLight);
   std::fill(texels.begin() + static_cast<std::ptrdiff_t>(kSkyHeight / 2) * kSkyWidth, texels.end(), ground);
   return {EnvironmentPicture(kSkyWidth, kSkyHeight, std::move(texels)),
           to_sun,

@@ -13,7 +13,7 @@
 namespace gatelight::renderer {
 namespace {
 
-constexpr int kMostHeight = 4096;
+constexpr int kMaxHeight = 4096;
 /// Number of directions of a texel in each of its two coordinates.
 constexpr int kSubTexels = 2;
 
@@ -70,7 +70,7 @@ EnvironmentPicture make_cube_picture(const scene::ImageBasedLight& light, float 
   const std::array<Face, 6> faces = {face(0), face(1), face(2), face(3), face(4), face(5)};
   int side = 1;
   for (const Face& f : faces) side = std::max({side, f.width, f.height});
-  const int height = std::min(2 * side, kMostHeight), width = 2 * height;
+  const int height = std::min(2 * side, kMaxHeight), width = 2 * height;
   const float factor = scale * light.intensity / (kSubTexels * kSubTexels);
   std::vector<Color> texels(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
   tbb::parallel_for(0, height, [&](int y) {

@@ -40,9 +40,9 @@ void check_light_groups(const std::vector<LightGroup>& groups) {
                                             [](const std::string& light) { return light.empty(); }))
       refuse("lacks a light", "NAME=LIGHT,LIGHT");
   }
-  if (groups.size() > kMostLightGroups)
+  if (groups.size() > kMaxLightGroups)
     throw BadOption({kOption, "", fmt::format("there are {} groups", groups.size()),
-                     fmt::format("at most {}", kMostLightGroups)});
+                     fmt::format("at most {}", kMaxLightGroups)});
 }
 
 }  // namespace gatelight::renderer

@@ -22,11 +22,11 @@ inline constexpr const char* kEnvironmentWord = "environment";
 inline constexpr const char* kRestGroup = "rest";
 /// Prefix of the names of their layers.
 inline constexpr const char* kLightLayer = "light-";
-inline constexpr std::size_t kMostLightGroups = 16;
+inline constexpr std::size_t kMaxLightGroups = 16;
 
 /// The groups as a text: "NAME=LIGHT,LIGHT;NAME=LIGHT".
 std::string text_of(const std::vector<LightGroup>& groups);
-/// Refuses unless there are at most kMostLightGroups, each with lights and a name of its own.
+/// Refuses unless there are at most kMaxLightGroups, each with lights and a name of its own.
 void check_light_groups(const std::vector<LightGroup>& groups);
 
 }  // namespace gatelight::renderer

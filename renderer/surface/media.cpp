@@ -8,7 +8,7 @@ void MediumStack::enter(std::uint32_t volume) {
   const auto begin = volumes_.begin(), end = begin + count_;
   const auto at = std::lower_bound(begin, end, volume);
   if (at == volumes_.end() || (at != end && *at == volume)) return;
-  if (count_ < kMost) ++count_;
+  if (count_ < kMax) ++count_;
   std::copy_backward(at, begin + count_ - 1, begin + count_);
   *at = volume;
 }

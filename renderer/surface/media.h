@@ -12,10 +12,10 @@
 namespace gatelight::renderer {
 
 /// The volumes around a point, by their numbers: the smallest one is the strongest and fills the space. Of
-/// more than kMost the weakest are forgotten; a path that leaves one of them later was in it nevertheless.
+/// more than kMax the weakest are forgotten; a path that leaves one of them later was in it nevertheless.
 class MediumStack {
  public:
-  static constexpr int kMost = 8;
+  static constexpr int kMax = 8;
 
   std::uint32_t strongest() const { return count_ > 0 ? volumes_[0] : scene::kNoVolume; }
   /// The strongest of the others.
@@ -28,7 +28,7 @@ class MediumStack {
   void cross(std::uint32_t volume, bool enters) { enters ? enter(volume) : leave(volume); }
 
  private:
-  std::array<std::uint32_t, kMost> volumes_{};
+  std::array<std::uint32_t, kMax> volumes_{};
   std::uint8_t count_ = 0;
 };
 

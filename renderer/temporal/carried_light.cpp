@@ -18,7 +18,7 @@ constexpr float kStandardErrors = 2.0f;
 /// Pixels around, in each direction, whose samples decide how bright the carried light is.
 constexpr int kAroundMatch = 24;
 /// Finer light than kAroundLow is mixed in by at most this share.
-constexpr float kMostHigh = 0.5f;
+constexpr float kMaxHigh = 0.5f;
 
 template <class Function>
 void for_each_pixel(std::size_t pixels, const Function& function) {
@@ -130,7 +130,7 @@ void mix_light(const CarriedLight& carried, const PixelRect& rect, std::vector<f
       const float ratio = std::clamp(before[i] / now[i], 1.0f / kMostRatio, kMostRatio);
       float& color = denoised[3 * i + c];
       const float as_bright = color * ratio, low = weight[i] / there[i];
-      const float high = std::min(carried.weight[i], kMostHigh);
+      const float high = std::min(carried.weight[i], kMaxHigh);
       color += low * (as_bright - color);
       if (high > 0.0f) color += high * (carried.color[3 * i + c] - as_bright);
       color = std::max(color, 0.0f);

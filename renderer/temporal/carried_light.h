@@ -34,7 +34,7 @@ struct CarriedLight {
 
 /// Most samples that a pixel takes over, in those that the frame itself has: more hold light longer still,
 /// but follow its changes later.
-inline constexpr float kMostEarlier = 12.0f;
+inline constexpr float kMaxEarlier = 12.0f;
 
 /// The carried light is mixed in by its full share in means over so many pixels around, in each direction.
 inline constexpr int kAroundLow = 4;

@@ -14,7 +14,7 @@ namespace {
 
 /// The earlier point of a pixel lies near the present one: in normal direction at most this many pixels away,
 /// along the surface this many.
-constexpr float kMostAcross = 1.0f, kMostAlong = 3.0f;
+constexpr float kMaxAcross = 1.0f, kMaxAlong = 3.0f;
 /// Pixels so near an edge, in each direction, mix the light of surfaces: filters of pixels and the denoiser
 /// reach as far. What they show is not carried. A dark arch before a sunlit wall would grow brighter as it
 /// comes nearer.
@@ -27,7 +27,7 @@ constexpr int kAroundProbe = 2;
 constexpr float kUnchanged = 0.03f, kChanged = 0.2f;
 /// Old light that is wrong by a change c counts for at most so many of the frame's samples, over c: then the
 /// error of the mean stays below this, however many changes add up. From the second on nothing is carried.
-constexpr float kMostError = 0.01f, kOther = 0.1f;
+constexpr float kMaxError = 0.01f, kOther = 0.1f;
 
 bool same_surface(const VisiblePoint& there, const VisiblePoint& now, const EarlierPoint& earlier) {
   if (!there.hit || there.hit.instance != now.hit.instance || there.layers != now.layers) return false;
@@ -36,8 +36,8 @@ bool same_surface(const VisiblePoint& there, const VisiblePoint& now, const Earl
   const float width = std::max(there.width, now.width);
   const float across = std::abs(apart.dot(earlier.normal));
   // A pixel is longer on a surface that is seen from the side.
-  return across <= kMostAcross * width &&
-         apart.squaredNorm() <= 400.0f * kMostAlong * kMostAlong * width * width;
+  return across <= kMaxAcross * width &&
+         apart.squaredNorm() <= 400.0f * kMaxAlong * kMaxAlong * width * width;
 }
 
 /// How far the light still holds that depends on the view.
@@ -123,7 +123,7 @@ class Reprojector {
     }
     if (!(weights > 0.01f)) return {};
     sum.color /= weights;
-    sum.samples = std::min(sum.samples, kMostEarlier * frame_.count[i]) * weights * same_gloss(now, earlier);
+    sum.samples = std::min(sum.samples, kMaxEarlier * frame_.count[i]) * weights * same_gloss(now, earlier);
     sum.probe /= weights;
     return sum;
   }
@@ -147,7 +147,7 @@ class Reprojector {
     box_filter(change, rect_.width(), rect_.height(), kAroundLow);
     for_each_pixel([&](std::size_t i) {
       if (!(change[i] > 0.0f)) return;
-      const float most = change[i] < kOther ? frame_.count[i] * kMostError / change[i] : 0.0f;
+      const float most = change[i] < kOther ? frame_.count[i] * kMaxError / change[i] : 0.0f;
       carried_[i].samples = std::min(carried_[i].samples, most);
     });
   }

@@ -14,9 +14,9 @@ namespace {
 /// Mirrors and panes that are followed.
 constexpr int kMostPassed = 8;
 /// The same with blended surfaces, where anything moves.
-constexpr int kMostMet = 32;
+constexpr int kMaxMet = 32;
 /// What has less weight in a pixel's light is not looked for.
-constexpr float kLeastWeight = 0.01f;
+constexpr float kMinWeight = 0.01f;
 
 Affine reflection(const Vec3& point, const Vec3& normal) {
   Affine mirror = Affine::Identity();
@@ -64,7 +64,7 @@ class Tracer {
     if (finds_changes_) points.changes.resize(points.now.size());
   }
 
-  int most_passed() const { return meets_all_ ? kMostMet : kMostPassed; }
+  int most_passed() const { return meets_all_ ? kMaxMet : kMostPassed; }
 
   PixelPath start(std::size_t pixel, const CameraRay& from) const {
     PixelPath path{.pixel = pixel, .ray = from.ray, .cone = from.cone, .seed = from.ray.seed};
@@ -120,8 +120,8 @@ class Tracer {
   static bool go_behind(PixelPath& path, const Hit& hit, const Surface& surface, float alpha) {
     path.ray.origin = surface.spawn(path.ray.direction);
     path.weight *= 1.0f - alpha;
-    if (!path.arrived && alpha > kLeastWeight) note_layer(path, hit);
-    return !path.arrived || path.weight > kLeastWeight;
+    if (!path.arrived && alpha > kMinWeight) note_layer(path, hit);
+    return !path.arrived || path.weight > kMinWeight;
   }
 
   /// Goes on to what the surface of the point mirrors.
@@ -134,7 +134,7 @@ class Tracer {
     path.cone = {width, path.cone.spread + gloss.lobe};
     path.travelled = 0.0f;
     path.weight *= gloss.share;
-    return path.weight > kLeastWeight;
+    return path.weight > kMinWeight;
   }
 
   /// Stores the point; false where its triangle has no area.

@@ -15,7 +15,7 @@ namespace gatelight::renderer {
 std::string view_warning(const World& world, const Camera& camera, int width, int height) {
   constexpr int kGrid = 32;
   constexpr double kAll = kGrid * kGrid;
-  constexpr double kMostBacks = 0.75;
+  constexpr double kMaxBacks = 0.75;
   std::vector<Ray> rays;
   for (int y = 0; y < kGrid; ++y) {
     for (int x = 0; x < kGrid; ++x) {
@@ -43,7 +43,7 @@ std::string view_warning(const World& world, const Camera& camera, int width, in
   if (missed == static_cast<int>(rays.size())) {
     return fmt::format("{}: the camera sees nothing: 100 % of its rays meet no surface", world.scene.path);
   }
-  if (backs >= kMostBacks * kAll) {
+  if (backs >= kMaxBacks * kAll) {
     return fmt::format("{}: the camera may stand inside an object: {:.0f} % of its rays meet back faces",
                        world.scene.path, 100.0 * backs / kAll);
   }
@@ -67,8 +67,8 @@ MediumStack volumes_around(const World& world, const Vec3& point) {
   ray.origin = point;
   ray.direction = Vec3(0.48f, 0.64f, 0.6f);
   std::vector<char> met(world.scene.instances.size(), 0);  // by volume: at most one for each instance
-  constexpr int kMostSurfaces = 4096;
-  for (int i = 0; i < kMostSurfaces; ++i) {
+  constexpr int kMaxSurfaces = 4096;
+  for (int i = 0; i < kMaxSurfaces; ++i) {
     Hit hit;
     world.accel.intersect({&ray, 1}, {&hit, 1}, false);
     if (!hit) break;

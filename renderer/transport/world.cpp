@@ -12,14 +12,14 @@
 namespace gatelight::renderer {
 namespace {
 
-/// Names of the objects, each once, in order; at most kMostNames.
+/// Names of the objects, each once, in order; at most kMaxNames.
 std::vector<std::string> names_of(const scene::Scene& scene) {
-  constexpr std::size_t kMostNames = 20;
+  constexpr std::size_t kMaxNames = 20;
   std::vector<std::string> names;
   for (const scene::Instance& instance : scene.instances) {
     if (std::find(names.begin(), names.end(), instance.name) != names.end()) continue;
-    names.push_back(names.size() < kMostNames ? instance.name : "...");
-    if (names.size() > kMostNames) break;
+    names.push_back(names.size() < kMaxNames ? instance.name : "...");
+    if (names.size() > kMaxNames) break;
   }
   return names;
 }

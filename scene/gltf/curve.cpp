@@ -80,7 +80,7 @@ Eigen::VectorXd evaluate(const Curve& curve, double time, bool before) {
 }
 
 Passage passage_at(const Curve& curve, float time) {
-  constexpr double kStep = 1e-5, kLeast = 1e-3;  // of the seconds between two keys, of a slope
+  constexpr double kStep = 1e-5, kMin = 1e-3;  // of the seconds between two keys, of a slope
   // On each side the value, its slope, and the mean slope to the next key.
   struct Side {
     Eigen::VectorXd value, slope;
@@ -110,7 +110,7 @@ Passage passage_at(const Curve& curve, float time) {
   const double rounding = curve.shape.is_rotation ? 1e-6 : 1e-8;
   if ((after.value - before.value).norm() > rounding * size) return Passage::jump;
   const double slope = std::max({before.slope.norm(), after.slope.norm(), before.change, after.change});
-  return (after.slope - before.slope).norm() > kLeast * slope ? Passage::bend : Passage::smooth;
+  return (after.slope - before.slope).norm() > kMin * slope ? Passage::bend : Passage::smooth;
 }
 
 double turn_between(const Curve& curve, double from, double to) {

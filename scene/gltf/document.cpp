@@ -16,11 +16,11 @@ using nlohmann::json;
 /// One byte of a buffer becomes at most 76 bytes of a mesh, unless primitives share accessors: an 8-bit index
 /// becomes an index of 4 bytes and at most one vertex of 72. Scenes below kSmallScene bytes may share without
 /// limit.
-constexpr std::size_t kMostPerByte = 256;
+constexpr std::size_t kMaxPerByte = 256;
 constexpr std::size_t kSmallScene = std::size_t{1} << 30;
 
 /// The shortest node that shows a mesh has 10 characters, and 537 bytes in tinygltf's model.
-constexpr std::size_t kMostPerCharacter = 64;
+constexpr std::size_t kMaxPerCharacter = 64;
 
 /// Views that reach beyond the bytes that are there are refused where they are read.
 void warn_of_length(std::size_t buffer, std::size_t found, std::size_t expected, Warnings& warnings) {
@@ -51,7 +51,7 @@ Document::Document(const std::filesystem::path& path, const LoadOptions& options
 
 void Document::check_model_size(std::size_t bytes) const {
   const std::size_t text = container_.json.size();
-  const std::size_t most = std::max(kSmallScene, text * kMostPerCharacter);
+  const std::size_t most = std::max(kSmallScene, text * kMaxPerCharacter);
   if (bytes <= most) return;
   fail("JSON", fmt::format("objects of {} MiB in memory, expected at most {} of a text of {} bytes",
                            bytes >> 20, most >> 20, text));
@@ -81,7 +81,7 @@ OwnedBytes Document::read_buffer(std::size_t index, const std::string& uri, std:
 }
 
 void Document::claim(std::size_t bytes, std::string_view where) const {
-  const std::size_t most = std::max(kSmallScene, read_bytes_ * kMostPerByte);
+  const std::size_t most = std::max(kSmallScene, read_bytes_ * kMaxPerByte);
   if (bytes <= most && claimed_ <= most - bytes) {
     claimed_ += bytes;
     return;

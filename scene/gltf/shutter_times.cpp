@@ -97,13 +97,13 @@ ShutterTimes::ShutterTimes(const Animator& animator, double middle, double lengt
   points.push_back(centre);
   add_between(single(centre), single(closing));
   points.push_back(closing);
-  const bool few = corners.size() <= static_cast<std::size_t>(kMostShutterIntervals);
+  const bool few = corners.size() <= static_cast<std::size_t>(kMaxShutterIntervals);
   if (few) divide(points, 0);
-  if (few && intervals() <= kMostShutterIntervals) return;
+  if (few && intervals() <= kMaxShutterIntervals) return;
   warnings.add(fmt::format("{} keys while the shutter is open: motion is blurred between {} even times",
-                           corners.size(), kMostShutterIntervals + 1));
+                           corners.size(), kMaxShutterIntervals + 1));
   centre.jumps = closing.jumps = false;
-  divide({points.front(), centre, closing}, kMostShutterIntervals / 2);
+  divide({points.front(), centre, closing}, kMaxShutterIntervals / 2);
 }
 
 void ShutterTimes::divide(const std::vector<Point>& points, int least) {

@@ -13,7 +13,7 @@
 namespace gatelight::scene::gltf {
 namespace {
 
-constexpr std::size_t kMostBase64 = std::numeric_limits<int>::max();  // tinygltf counts in int
+constexpr std::size_t kMaxBase64 = std::numeric_limits<int>::max();  // tinygltf counts in int
 
 /// Whether the text begins with `prefix`, a text in lower case; ASCII letters of either case are equal.
 bool begins_with(std::string_view text, std::string_view prefix) {
@@ -90,10 +90,10 @@ OwnedBytes read_data(std::string_view uri, std::string_view file, std::string_vi
   const std::string_view body = uri.substr(comma + 1);
   constexpr std::string_view kBase64 = ";base64";
   if (begins_with(head.substr(head.size() - std::min(head.size(), kBase64.size())), kBase64)) {
-    if (body.size() > kMostBase64) {
+    if (body.size() > kMaxBase64) {
       throw make_error(
           file, where,
-          fmt::format("a data URI of {} characters, expected at most {}", body.size(), kMostBase64));
+          fmt::format("a data URI of {} characters, expected at most {}", body.size(), kMaxBase64));
     }
     std::optional<OwnedBytes> bytes = decode_base64(body);
     if (!bytes && body.find('%') != std::string_view::npos) bytes = decode_base64(decode_percent(body));

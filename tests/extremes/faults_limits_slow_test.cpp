@@ -32,13 +32,13 @@ class Limits : public Faults {
   }
 };
 
-constexpr rlim_t kLeastMebibytes = 384;
+constexpr rlim_t kMinMebibytes = 384;
 
 TEST_F(Limits, AddressSpaceLimitsEndInAPictureOrInOneErrorLine) {
   if (kSanitized) GTEST_SKIP() << "sanitizers take terabytes of addresses";
   int pictures = 0;
   int refusals = 0;
-  for (rlim_t mebibytes = kLeastMebibytes; mebibytes <= 2560; mebibytes += 512) {
+  for (rlim_t mebibytes = kMinMebibytes; mebibytes <= 2560; mebibytes += 512) {
     for (const char* integrator : {"path", "nrc"}) {
       std::vector<std::string> more = {"-o",      path("a.exr"),  "--spp",   "1",
                                        "--quiet", "--integrator", integrator};
@@ -63,7 +63,7 @@ TEST_F(Limits, AddressSpaceLimitsEndInAPictureOrInOneErrorLine) {
   EXPECT_GT(pictures, 2);
   EXPECT_GT(refusals, 0);
   report_extreme("ulimit -v",
-                 fmt::format("{} MiB to 2.5 GiB, a picture of 4096x2048, and a cache", kLeastMebibytes),
+                 fmt::format("{} MiB to 2.5 GiB, a picture of 4096x2048, and a cache", kMinMebibytes),
                  fmt::format("{} pictures; never a crash or half a file", pictures),
                  fmt::format("{} times exit 4, one line with what is needed and what is left", refusals));
 }

@@ -47,7 +47,7 @@ double lambert(const std::vector<Eigen::Vector3d>& polygon, const Eigen::Vector3
 }
 
 /// One mesh in a plane: triangles whose sides are powers of ten, each three sides from the origin.
-constexpr int kLeast = -6;
+constexpr int kMin = -6;
 constexpr int kGreatest = 3;
 std::array<Vec3, 3> triangle_of(int exponent) {
   const float side = std::pow(10.0f, static_cast<float>(exponent));
@@ -58,7 +58,7 @@ SceneBuilder many_sizes(const Color& emission) {
   SceneBuilder builder;
   PaddedVector<Vec3> positions;
   std::vector<std::array<std::uint32_t, 3>> triangles;
-  for (int e = kLeast; e <= kGreatest; ++e) {
+  for (int e = kMin; e <= kGreatest; ++e) {
     const auto first = static_cast<std::uint32_t>(positions.size());
     for (const Vec3& p : triangle_of(e)) positions.push_back(p);
     triangles.push_back({first, first + 2, first + 1});
@@ -75,7 +75,7 @@ TEST(Meshes, TrianglesOfAllSizesAreHitInPlaceWithoutSelfIntersection) {
   Random random(1);
   double worst = 0.0;
   int missed = 0, self = 0;
-  for (int e = kLeast; e <= kGreatest; ++e) {
+  for (int e = kMin; e <= kGreatest; ++e) {
     const auto corners = triangle_of(e);
     const float side = (corners[2] - corners[0]).norm();
     for (int i = 0; i < 1000; ++i) {
@@ -89,7 +89,7 @@ TEST(Meshes, TrianglesOfAllSizesAreHitInPlaceWithoutSelfIntersection) {
       ray.direction = -from.normalized();
       Hit hit;
       world.accel.intersect({&ray, 1}, {&hit, 1}, false);
-      if (!hit || hit.primitive != static_cast<std::uint32_t>(e - kLeast)) {
+      if (!hit || hit.primitive != static_cast<std::uint32_t>(e - kMin)) {
         ++missed;
         continue;
       }
@@ -120,16 +120,16 @@ TEST(Meshes, TrianglesOfAllSizesAreHitInPlaceWithoutSelfIntersection) {
 TEST(Meshes, LampsOfAllSizesInOneMeshGiveTheAnalyticIrradiance) {
   SceneBuilder builder = many_sizes(Color::Ones());
   const World world(builder.scene());
-  EXPECT_EQ(world.lights.emissive_triangles(), static_cast<std::size_t>(kGreatest - kLeast + 1));
+  EXPECT_EQ(world.lights.emissive_triangles(), static_cast<std::size_t>(kGreatest - kMin + 1));
   Random random(2);
   double worst = 0.0;
-  for (int e = kLeast; e <= kGreatest; ++e) {
+  for (int e = kMin; e <= kGreatest; ++e) {
     const auto corners = triangle_of(e);
     const float side = (corners[2] - corners[0]).norm();
     const Vec3 p = (corners[0] + corners[1] + corners[2]) / 3.0f + Vec3(0, 0.3f * side, 0);
     const Vec3 n(0, -1, 0);
     double expected = 0.0;
-    for (int other = kLeast; other <= kGreatest; ++other) {
+    for (int other = kMin; other <= kGreatest; ++other) {
       std::vector<Eigen::Vector3d> polygon;
       for (const Vec3& c : triangle_of(other)) polygon.push_back(c.cast<double>() - p.cast<double>());
       expected += lambert(polygon, n.cast<double>());

@@ -16,8 +16,8 @@
 namespace gatelight::fuzz {
 namespace {
 
-constexpr std::size_t kMostWords = 40;
-constexpr std::size_t kMostAxes = 2;
+constexpr std::size_t kMaxWords = 40;
+constexpr std::size_t kMaxAxes = 2;
 constexpr std::size_t kMostValues = 5;
 
 std::vector<std::string> words_of(Bytes bytes) {
@@ -43,12 +43,12 @@ void settle(const Act& act) {
 }
 
 void plan_sweep(const std::vector<std::string>& words) {
-  apps::SweepWords sweep;
+  apps::SweepArguments sweep;
   sweep.scenes = {"a.glb"};
   for (const std::string& word : words) {
     const auto values = static_cast<std::size_t>(std::count(word.begin(), word.end(), ',') +
                                                  std::count(word.begin(), word.end(), ';'));
-    if (word.find('=') != std::string::npos && sweep.vary.size() < kMostAxes && values < kMostValues)
+    if (word.find('=') != std::string::npos && sweep.vary.size() < kMaxAxes && values < kMostValues)
       sweep.vary.push_back(word);
     else if (values < kMostValues && sweep.vary.empty())
       sweep.train_steps = word;
@@ -62,7 +62,7 @@ void plan_sweep(const std::vector<std::string>& words) {
 
 void command_line(Bytes bytes) {
   const std::vector<std::string> words = words_of(bytes);
-  if (words.size() > kMostWords) return;
+  if (words.size() > kMaxWords) return;
   std::vector<const char*> argv = {"gatelight"};
   for (const std::string& word : words) {
     if (word.find("--conf") != std::string::npos) return;  // config_file tests it
@@ -73,7 +73,7 @@ void command_line(Bytes bytes) {
 
   const std::vector<std::string> rest(words.begin() + 1, words.end());
   settle([&] {
-    apps::RenderSettings settings = apps::read_render_words("a.glb", rest);
+    apps::RenderSettings settings = apps::parse_render_arguments("a.glb", rest);
     apps::complete_settings(settings);
   });
   if (words[0] == "sweep") settle([&] { plan_sweep(rest); });

@@ -12,7 +12,7 @@
 namespace gatelight::fuzz {
 namespace {
 
-constexpr std::size_t kMostTriangles = 2000;  ///< more takes long, and finds nothing else
+constexpr std::size_t kMaxTriangles = 2000;  ///< more takes long, and finds nothing else
 
 renderer::RenderOptions smallest(renderer::Integrator integrator) {
   renderer::RenderOptions options;
@@ -45,7 +45,7 @@ void render(Bytes bytes) {
   static const InputFile file("scene.glb");
   try {
     const scene::Scene scene = scene::load_gltf(file.write(made_glb(bytes)), {.missing_is_error = false});
-    if (scene::count_triangles(scene) > kMostTriangles || scene::image_bytes(scene) > 1 << 20) return;
+    if (scene::count_triangles(scene) > kMaxTriangles || scene::image_bytes(scene) > 1 << 20) return;
     render(scene, renderer::Integrator::path);
     render(scene, renderer::Integrator::nrc);
   } catch (const InputError& error) {

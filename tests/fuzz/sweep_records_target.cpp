@@ -17,7 +17,7 @@ namespace {
 
 const apps::SweepPlan& plan() {
   static const apps::SweepPlan made = [] {
-    apps::SweepWords words;
+    apps::SweepArguments words;
     words.scenes = {"a.glb"};
     words.train_steps = "4";
     words.no_plain = true;

@@ -20,7 +20,7 @@
 namespace gatelight::fuzz {
 namespace {
 
-constexpr std::size_t kMostRequests = 8;
+constexpr std::size_t kMaxRequests = 8;
 
 /// A small picture with a second layer.
 apps::PictureFile& source() {
@@ -80,7 +80,7 @@ void read_flags(const std::string& body) {
 void view_request(Bytes bytes) {
   std::string_view rest(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   apps::ViewApi api(source());
-  for (std::size_t i = 0; i < kMostRequests && !rest.empty(); ++i) {
+  for (std::size_t i = 0; i < kMaxRequests && !rest.empty(); ++i) {
     const std::size_t end = std::min(rest.find('\x1e'), rest.size());
     apps::WebRequest request = request_of(rest.substr(0, end));
     rest.remove_prefix(std::min(end + 1, rest.size()));

@@ -71,7 +71,7 @@ TEST(ShutterTimes, TurnsAreArcs) {
   AnimatedFile file = moving_triangle();
   file.move(0, "rotation", turns(file, 9));
   const Scene fast = file.load(kOneSecond);
-  EXPECT_EQ(fast.shutter.transforms.at(0).size(), std::size_t{kMostShutterIntervals} + 1);
+  EXPECT_EQ(fast.shutter.transforms.at(0).size(), std::size_t{kMaxShutterIntervals} + 1);
   tests::expect_messages(fast.warnings, {{"rotation", "25 degrees"}});
 }
 
@@ -199,7 +199,7 @@ TEST(ShutterTimes, TooManyKeysAreBlurredEvenly) {
   }
   file.move(0, "translation", {file.seconds(seconds), file.vectors(places)}, "STEP");
   const Scene scene = file.load(kOneSecond);
-  EXPECT_EQ(scene.shutter.transforms.at(0).size(), std::size_t{kMostShutterIntervals} + 1);
+  EXPECT_EQ(scene.shutter.transforms.at(0).size(), std::size_t{kMaxShutterIntervals} + 1);
   EXPECT_TRUE(scene.shutter.clock.empty());
   tests::expect_messages(scene.warnings, {{"399 keys", "129"}});
 }

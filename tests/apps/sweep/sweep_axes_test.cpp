@@ -55,15 +55,15 @@ TEST(SweepAxes, BadListsAreRefusedWithFlagAndValue) {
   }
 }
 
-SweepWords words_for(FlagValues base, std::vector<std::string> vary = {}) {
-  SweepWords words;
+SweepArguments words_for(FlagValues base, std::vector<std::string> vary = {}) {
+  SweepArguments words;
   words.scenes = {"room.glb"};
   words.base = std::move(base);
   words.vary = std::move(vary);
   return words;
 }
 
-ErrorParts refused(const SweepWords& words) {
+ErrorParts refused(const SweepArguments& words) {
   return refusal([&] { make_request(words); });
 }
 
@@ -79,7 +79,7 @@ TEST(SweepRuns, AreANameAndFlagsWithValues) {
 
 TEST(SweepRuns, AreReadFromAFile) {
   const tests::TemporaryFolder folder;
-  SweepWords words = words_for({});
+  SweepArguments words = words_for({});
   words.plans = {folder.write("a.plan", "# one a line\n\none: --spp 1\r\n  two: --spp 2\n").string()};
   words.runs = {"three: --spp 3"};
   std::vector<std::string> names;
@@ -90,7 +90,7 @@ TEST(SweepRuns, AreReadFromAFile) {
 }
 
 TEST(SweepRuns, AreRefusedWithFlagsThatAreNotTheirs) {
-  SweepWords words = words_for({});
+  SweepArguments words = words_for({});
   const auto refused_run = [&](const std::string& run) {
     words.runs = {"one: --spp 1", run};
     return refused(words);
@@ -101,7 +101,7 @@ TEST(SweepRuns, AreRefusedWithFlagsThatAreNotTheirs) {
     expect_parts(refused_run(std::string("two: ") + flag + " 2"), {"run", flag, "'two'"});
   words.train_steps = "8";
   EXPECT_EQ(refused_run("two:").option, "train-steps");
-  SweepWords finished = words_for({{"--integrator", "path"}});
+  SweepArguments finished = words_for({{"--integrator", "path"}});
   finished.preset = "finished";
   expect_parts(refused(finished), {"integrator", "--integrator", "finished"});
 }
@@ -130,22 +130,22 @@ TEST(SweepRequest, WithAnAxisTheDefaultIsNrcFromFewToManySteps) {
 }
 
 TEST(SweepRequest, APresetOfRenderSetsIntegratorAndSamples) {
-  SweepWords words = words_for({});
+  SweepArguments words = words_for({});
   words.preset = "final";
   EXPECT_THAT(make_request(words).blocks[0].base, ElementsAre(Pair("--preset", "final")));
   EXPECT_THAT(make_request(words_for({}, {"preset=preview,final"})).blocks[0].base, ElementsAre());
 }
 
 TEST(SweepRequest, FlagsThatAreFixedAndVariedAreRefused) {
-  SweepWords both = words_for({{"--encoding", "gate"}});
+  SweepArguments both = words_for({{"--encoding", "gate"}});
   both.axes = {{kAxisFlags[1], "gate,hashgrid"}};
   expect_parts(refused(both), {"encoding", "gate", "`encodings`"});
   expect_parts(refused(words_for({{"--batch", "7"}}, {"batch=1,2"})), {"batch", "7", "`vary`"});
   expect_parts(refused(words_for({}, {"batch=1,2", "batch=3"})), {"vary", "--batch", "`vary`"});
-  SweepWords twice = words_for({}, {"features=2,4"});
+  SweepArguments twice = words_for({}, {"features=2,4"});
   twice.axes = {{kAxisFlags[2], "8"}};
   expect_parts(refused(twice), {"vary", "--features", "`features`"});
-  SweepWords preset = words_for({}, {"preset=preview,final"});
+  SweepArguments preset = words_for({}, {"preset=preview,final"});
   preset.preset = "preview";
   EXPECT_EQ(refused(preset).option, "preset");
 }
@@ -163,7 +163,7 @@ TEST(SweepRequest, FlagsThatCannotBeVariedAreRefusedWithAnAlternative) {
 }
 
 TEST(SweepRequest, SeedsStartAtTheGivenSeed) {
-  SweepWords words = words_for({{"--seed", "40"}});
+  SweepArguments words = words_for({{"--seed", "40"}});
   words.seeds = "3";
   const SweepRequest request = make_request(words);
   EXPECT_EQ(request.first_seed, 40u);
@@ -179,7 +179,7 @@ TEST(SweepRequest, SeedsStartAtTheGivenSeed) {
 }
 
 TEST(SweepRequest, FlagsWinOverAPresetOfThePaper) {
-  SweepWords words = words_for({{"--size", "64x36"}, {"--batch", "512"}}, {"hidden=16,32"});
+  SweepArguments words = words_for({{"--size", "64x36"}, {"--batch", "512"}}, {"hidden=16,32"});
   words.preset = "paper-table1";
   words.train_steps = "4,2";
   const SweepRequest request = make_request(words);
@@ -198,7 +198,7 @@ TEST(SweepRequest, FlagsWinOverAPresetOfThePaper) {
 
 TEST(SweepRequest, FlagsThatNameARowCannotBeChanged) {
   const auto refused_by = [](const std::string& preset, FlagValues base, std::vector<std::string> vary = {}) {
-    SweepWords words = words_for(std::move(base), std::move(vary));
+    SweepArguments words = words_for(std::move(base), std::move(vary));
     words.preset = preset;
     return refused(words);
   };
@@ -209,7 +209,7 @@ TEST(SweepRequest, FlagsThatNameARowCannotBeChanged) {
   EXPECT_EQ(refused_by("paper-table1", {{"--resolution", "uniform"}}).option, "")
       << "no row is named after it";
   EXPECT_EQ(refused_by("paper-table1", {{"--normal-input", "on"}}).option, "");
-  SweepWords axes = words_for({});
+  SweepArguments axes = words_for({});
   axes.preset = "paper-table1";
   axes.axes = {{kAxisFlags[1], "gate,hashgrid"}};
   expect_parts(refused(axes), {"encodings", "--encoding"});

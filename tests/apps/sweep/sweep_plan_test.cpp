@@ -33,7 +33,7 @@ using tests::expect_message;
 
 SweepPlan plan_of(FlagValues base, std::vector<std::string> vary = {}, bool no_plain = true,
                   const std::string& preset = "") {
-  SweepWords words;
+  SweepArguments words;
   words.scenes = {"room.glb"};
   words.base = std::move(base);
   words.vary = std::move(vary);
@@ -108,7 +108,7 @@ TEST(SweepPlan, TheBareCacheHasAReferenceOfItsOwnAndNoPlainRow) {
 
 SweepPlan plan_of_scene_alone(FlagValues base = {}, std::vector<std::string> vary = {},
                               const std::string& steps = "") {
-  SweepWords words;
+  SweepArguments words;
   words.scenes = {"room.glb"};
   words.base = std::move(base);
   words.vary = std::move(vary);
@@ -210,7 +210,7 @@ TEST(SweepPlan, ABadValueInAnyCellIsRefusedAtOnce) {
 
 TEST(SweepPlan, AllowExternalAppliesToScenesAndIsInTheCommand) {
   for (const bool allowed : {false, true}) {
-    SweepWords words;
+    SweepArguments words;
     words.scenes = {"room.glb"};
     words.allow_external = allowed;
     const SweepPlan plan = make_plan(make_request(words));
@@ -236,7 +236,7 @@ TEST(SweepPlan, TheCommandReproducesTheCell) {
                                     std::to_string(point), std::string("--seed"), std::string("7")}) {
       words.push_back(word);
     }
-    RenderSettings read = read_render_words("a room.glb", words);
+    RenderSettings read = parse_render_arguments("a room.glb", words);
     complete_settings(read);
     EXPECT_EQ(deciding_text(read), deciding_text(cell_settings(series, "a room.glb", 7, point)))
         << series.label;
@@ -263,7 +263,7 @@ TEST(SweepPlan, SkiesAndAdjustedLightsArePartOfTheKey) {
 }
 
 TEST(SweepPlan, ScenesOfOneNameGetDifferentNames) {
-  SweepWords words;
+  SweepArguments words;
   words.scenes = {"a/room.glb", "b/room.glb", "hall.glb"};
   std::vector<std::string> names;
   for (const SweepScene& scene : make_request(words).scenes) names.push_back(scene.name);
@@ -273,7 +273,7 @@ TEST(SweepPlan, ScenesOfOneNameGetDifferentNames) {
 }
 
 TEST(SweepPlan, ASceneMayHaveFlagsOfItsOwn) {
-  SweepWords words;
+  SweepArguments words;
   words.scenes = {"room.glb", "a/hall.glb"};
   words.vary = {"features=2,4"};
   words.base = {{"--camera", "front"}};

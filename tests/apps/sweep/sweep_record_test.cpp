@@ -78,7 +78,7 @@ TEST(SweepRecord, TimeOfTheDenoiserCountsAndTheEstimatedErrorIsKept) {
 }
 
 TEST(SweepRecord, OfANamedRunKeepsWhatTheRunHasChosen) {
-  SweepWords words;
+  SweepArguments words;
   words.scenes = {"room.glb"};
   words.runs = {"finished: --preset standard"};
   words.no_plain = true;

@@ -11,7 +11,7 @@
 namespace gatelight::apps {
 
 inline SweepPlan small_plan() {
-  SweepWords words;
+  SweepArguments words;
   words.scenes = {"a, \"b\".glb"};
   words.vary = {"stack=adaptive,1;adaptive"};
   words.train_steps = "4,8";

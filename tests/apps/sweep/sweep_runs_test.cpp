@@ -18,7 +18,7 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 
 SweepPlan plan_of_runs(std::vector<std::string> runs, FlagValues base = {}) {
-  SweepWords words;
+  SweepArguments words;
   words.scenes = {"room.glb"};
   words.base = std::move(base);
   words.runs = std::move(runs);
@@ -74,7 +74,7 @@ TEST(SweepPlanOfRuns, RunsThatDifferInTheChoiceOfTheIntegratorAreNotMerged) {
 }
 
 TEST(SweepPlanOfRuns, NamedRunsMayBeCombinedWithAxesAndStandBesideAPreset) {
-  SweepWords words;
+  SweepArguments words;
   words.scenes = {"room.glb"};
   words.no_plain = true;
   words.runs = {"bare: --preset bare", "wide: --preset bare --hidden 64"};
@@ -88,7 +88,7 @@ TEST(SweepPlanOfRuns, NamedRunsMayBeCombinedWithAxesAndStandBesideAPreset) {
 }
 
 TEST(SweepPresets, FinishedPicturesAreNamedRunsBesidePathsOfBothKinds) {
-  SweepWords words;
+  SweepArguments words;
   words.scenes = {"room.glb"};
   words.preset = "finished";
   const SweepPlan plan = make_plan(make_request(words));

@@ -28,9 +28,9 @@ TEST(MediumStack, TheSmallestNumberIsTheStrongest) {
 
 TEST(MediumStack, ForgetsTheWeakestOfTooMany) {
   MediumStack in;
-  constexpr std::uint32_t kAll = MediumStack::kMost + 3;
+  constexpr std::uint32_t kAll = MediumStack::kMax + 3;
   for (std::uint32_t v = kAll; v-- > 0;) in.enter(v);
-  for (std::uint32_t v = 0; v < MediumStack::kMost; ++v) {
+  for (std::uint32_t v = 0; v < MediumStack::kMax; ++v) {
     EXPECT_EQ(in.strongest(), v);
     in.leave(v);
   }

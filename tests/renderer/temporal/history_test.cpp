@@ -123,7 +123,7 @@ TEST(ReusedSamples, NearEdgesAreNotCarried) {
 TEST(ReusedSamples, AreAtMostSoMany) {
   const Wall wall(matte());
   const Reuse reuse = wall.reuse(wall.film(1.0f, 0.5f), wall.history(wall.camera, 1.0f, 1e6f, -1.0f));
-  for (const float samples : reuse.samples) EXPECT_NEAR(samples, 4.0f * (1.0f + kMostEarlier), 1e-2f);
+  for (const float samples : reuse.samples) EXPECT_NEAR(samples, 4.0f * (1.0f + kMaxEarlier), 1e-2f);
 }
 
 TEST(ReusedSamples, ComeFromWhereThePointWas) {

@@ -7,6 +7,6 @@ namespace gatelight::apps {
 
 /// Presets of radiance have automatic exposure, and those of finished pictures a curve with room for
 /// highlights, where no flag sets them. Call it before complete_settings().
-void show_well(RenderSettings& settings);
+void apply_display_defaults(RenderSettings& settings);
 
 }  // namespace gatelight::apps

@@ -1,8 +1,8 @@
-#include "apps/settings/show_well.h"
+#include "apps/settings/display_defaults.h"
 
 namespace gatelight::apps {
 
-void show_well(RenderSettings& settings) {
+void apply_display_defaults(RenderSettings& settings) {
   using renderer::CachePreset;
   if (!settings.preset) return;
   const renderer::Integrator integrator = settings.render.integrator;
