@@ -13,6 +13,7 @@
 #include "apps/describe_program.h"
 #include "apps/manual/complete.h"
 #include "apps/settings/config_file.h"
+#include "apps/settings/flags.h"
 #include "apps/settings/help_format.h"
 #include "apps/settings/other_tools.h"
 #include "apps/subcommand.h"

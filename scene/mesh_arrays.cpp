@@ -21,24 +21,26 @@ MeshNeeds mesh_needs(const Material& material) {
   return needs;
 }
 
-std::string wrong_index(const std::vector<std::array<std::uint32_t, 3>>& triangles, std::size_t vertices) {
+ErrorParts wrong_index(const std::vector<std::array<std::uint32_t, 3>>& triangles, std::size_t vertices) {
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     for (const std::uint32_t index : triangles[i]) {
       if (index < vertices) continue;
-      return fmt::format("index {} in triangle {}, expected less than {} (the vertices)", index, i, vertices);
+      return {.problem = fmt::format("index {} in triangle {}", index, i),
+              .expected = fmt::format("less than {} (the vertices)", vertices)};
     }
   }
-  return "";
+  return {};
 }
 
-std::string wrong_position(const Mesh& mesh, const std::vector<std::uint32_t>& numbers) {
+ErrorParts wrong_position(const Mesh& mesh, const std::vector<std::uint32_t>& numbers) {
   for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
     if (mesh.positions[i].allFinite()) continue;
     const Vec3& p = mesh.positions[i];
-    return fmt::format("position {} is ({}, {}, {}), expected finite numbers",
-                       numbers.empty() ? i : numbers[i], p.x(), p.y(), p.z());
+    return {.problem = fmt::format("position {} is ({}, {}, {})", numbers.empty() ? i : numbers[i], p.x(),
+                                   p.y(), p.z()),
+            .expected = "finite numbers"};
   }
-  return "";
+  return {};
 }
 
 std::vector<std::uint32_t> compact_vertices(std::vector<std::array<std::uint32_t, 3>>& triangles,

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/errors.h"
 #include "scene/scene.h"
 
 namespace gatelight::scene {
@@ -20,12 +21,12 @@ struct MeshNeeds {
 
 MeshNeeds mesh_needs(const Material& material);
 
-/// Describes the first index that is not below `vertices`; empty where there is none.
-std::string wrong_index(const std::vector<std::array<std::uint32_t, 3>>& triangles, std::size_t vertices);
+/// The first index that is not below `vertices`; without a problem where there is none.
+ErrorParts wrong_index(const std::vector<std::array<std::uint32_t, 3>>& triangles, std::size_t vertices);
 
-/// Describes the first position that is not finite; empty where there is none. `numbers` are those of the
+/// The first position that is not finite; without a problem where there is none. `numbers` are those of the
 /// positions in messages; empty: their places.
-std::string wrong_position(const Mesh& mesh, const std::vector<std::uint32_t>& numbers = {});
+ErrorParts wrong_position(const Mesh& mesh, const std::vector<std::uint32_t>& numbers = {});
 
 /// Renumbers the triangles for the vertices that they use. Returns these vertices in order; empty if all are
 /// used.

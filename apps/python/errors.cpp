@@ -33,7 +33,7 @@ void raise_current(ErrorParts parts) {
   if (failure.advice == "see --help") failure.advice = "see help(gatelight.render)";
   const py::object error = py::reinterpret_borrow<py::object>(error_class)(message + link + failure.advice);
   const auto set = [&](const char* name, const std::string& text, bool has) {
-    error.attr(name) = has && !parts.option.empty() ? py::object(py::str(text)) : py::none();
+    error.attr(name) = has && !parts.option.empty() ? py::object(py::str(text)) : py::object(py::none());
   };
   set("option", parts.option, true);
   set("value", parts.value, !parts.value.empty() || parts.problem.empty());

@@ -28,7 +28,7 @@ scene::Instance& get(const InstancePart& part) {
   return part.scene->source.instances[part.index];
 }
 
-[[noreturn]] void fail(const char* name, const std::string& problem, const std::string& expected = "") {
+[[noreturn]] void fail(const char* name, const std::string& problem, const std::string& expected) {
   throw BadOption({name, "", problem, expected});
 }
 
@@ -53,8 +53,8 @@ void read_rows(const char* name, py::handle values, std::size_t count, Rows& row
 
 /// The texture coordinates and normals are repaired later, as those of a file are.
 void expect_finite(const scene::Mesh& mesh) {
-  const std::string wrong = scene::wrong_position(mesh);
-  if (!wrong.empty()) fail("positions", wrong);
+  const ErrorParts wrong = scene::wrong_position(mesh);
+  if (!wrong.problem.empty()) fail("positions", wrong.problem, wrong.expected);
 }
 
 /// (n, 3) or (n, 4); three are opaque.
@@ -209,8 +209,8 @@ MeshPart make_mesh(const ScenePointer& scene, py::handle positions, py::handle t
   if (indices.shape(0) == 0) fail("triangles", "it is empty", "a triangle");
   mesh.triangles.resize(static_cast<std::size_t>(indices.shape(0)));
   std::memcpy(mesh.triangles.data(), indices.data(), mesh.triangles.size() * sizeof(mesh.triangles[0]));
-  const std::string wrong = scene::wrong_index(mesh.triangles, vertices);
-  if (!wrong.empty()) fail("triangles", wrong);
+  const ErrorParts wrong = scene::wrong_index(mesh.triangles, vertices);
+  if (!wrong.problem.empty()) fail("triangles", wrong.problem, wrong.expected);
   read_rows("normals", normals, vertices, mesh.normals);
   read_rows("uvs", uvs, vertices, mesh.uv0);
   read_colors(colors, vertices, mesh.colors);

@@ -49,6 +49,7 @@ class Finder {
                            "`environment` or `sky`"});
         ErrorParts parts = names.no_such_light(wanted, environment ? kEnvironmentWord : "");
         parts.option = "light-groups";
+        parts.problem += fmt::format(" for the group '{}'", groups_[g].name);
         throw BadOption(parts);
       }
     }

@@ -84,8 +84,8 @@ Mesh load_primitive(const Document& document, const Pose& pose, int primitive_in
   read_attributes(vertices, needs, selection, mesh);
   morph(vertices, primitive, pose.weights, selection, mesh);
   if (!joints.empty()) apply_skin(document, vertices, joints, selection, mesh, warnings);
-  if (const std::string wrong = wrong_position(mesh, selection); !wrong.empty())
-    document.fail(vertices.where(), wrong);
+  if (const ErrorParts wrong = wrong_position(mesh, selection); !wrong.problem.empty())
+    document.fail(vertices.where(), sentence(wrong));
   complete_mesh(mesh, needs, warn);
   return mesh;
 }

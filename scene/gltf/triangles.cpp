@@ -30,8 +30,8 @@ Triangles assemble(const std::vector<std::uint32_t>& v, bool strip) {
 
 void check_indices(const Document& document, const Triangles& triangles, std::size_t vertex_count,
                    const std::string& where) {
-  const std::string wrong = wrong_index(triangles, vertex_count);
-  if (!wrong.empty()) document.fail(where, wrong);
+  const ErrorParts wrong = wrong_index(triangles, vertex_count);
+  if (!wrong.problem.empty()) document.fail(where, sentence(wrong));
 }
 
 Triangles read_triangles(const Document& document, const tinygltf::Primitive& primitive,

@@ -158,7 +158,7 @@ TEST_F(LightFlags, BadGroupsAreRefusedInOneLine) {
                  {"--light-groups", "key", "'noom'", "'noon'", "'panel'", "did you mean 'noon'"});
   expect_failure(refused({"--light-groups", "a=*;b=noon"}), 1, {"--light-groups", "'noon'", "'a'", "'b'"});
   expect_failure(refused({"--light-groups", "a=environment"}), 1, {"--light-groups", "environment"});
-  expect_failure(refused({"--light-groups", "a b=noon"}), 1, {"--light-groups", "'a b'"});
+  expect_failure(refused({"--light-groups", "a b=noon"}), 1, {"--light-groups", "'a b=noon'"});
   expect_failure(refused({"--light-groups", "key=noon", "--integrator", "nrc"}), 1,
                  {"--light-groups", "nrc", "`integrator` path"});
   expect_failure(refused({"--light-groups", "key=noon", "--preset", "bare"}), 1,

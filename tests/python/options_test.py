@@ -35,6 +35,7 @@ class Options(unittest.TestCase):
                 gatelight.render(lit_square(), **{**SMALL, **options})
             error = caught.exception
             self.assertEqual((error.option, error.value), (option, value), str(error))
+            self.assertTrue(str(error).startswith(f"{option}: "), str(error))
             self.assertTrue(expected is None or error.expected.startswith(expected), str(error))
         with self.assertRaises(gatelight.Error) as caught:
             gatelight.load("/nothing.glb")

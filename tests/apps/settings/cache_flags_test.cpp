@@ -123,7 +123,7 @@ TEST(CacheFlags, DefaultsAreThoseOfTheRendererAndShownInTheHelp) {
   Words words = {"--integrator", "nrc"};
   for (const CLI::Option* option : app.get_options()) {
     const std::string name = option->get_name();
-    if (!cache_names().contains(name.substr(2)) || option->get_default_str().empty()) continue;
+    if (!cache_names().contains(name_of(*option)) || option->get_default_str().empty()) continue;
     if (name.starts_with("--hash") || name == "--resolution-scale" || name == "--spread-threshold" ||
         name == "--samples-from-step")
       continue;

@@ -29,7 +29,6 @@ using ::testing::IsEmpty;
 using ::testing::Not;
 using ::testing::Pair;
 using ::testing::UnorderedElementsAre;
-using tests::expect_message;
 
 SweepPlan plan_of(FlagValues base, std::vector<std::string> vary = {}, bool no_plain = true,
                   const std::string& preset = "") {

@@ -25,7 +25,6 @@ Failure failure_of(const Exception& exception) {
 
 TEST(ExitCodes, EachKindOfExceptionHasItsCode) {
   EXPECT_EQ(failure_of(BadOption("m")).code, 1);
-  EXPECT_EQ(failure_of(BadOption("m")).code, 1);
   EXPECT_EQ(failure_of(UnknownFormat("m")).code, 1);
   EXPECT_EQ(failure_of(InputError("m")).code, 2);
   EXPECT_EQ(failure_of(OutputError("m")).code, 3);
@@ -54,6 +53,14 @@ TEST(ExitCodes, TheMessageIsKeptAndAdviceGiven) {
   const Failure failure = failure_of(OutOfMemory("needs 3 GiB"));
   EXPECT_EQ(failure.message, "needs 3 GiB");
   tests::expect_message(failure.advice, {"limit"});
+}
+
+TEST(ExitCodes, OptionsAreFlagsAndArgumentsHaveNoDashes) {
+  EXPECT_EQ(failure_of(BadOption({"max-depth", "x", "", "a number"})).message,
+            "--max-depth: 'x' is not a number");
+  EXPECT_EQ(failure_of(BadConfiguration({"hidden", "3", "", "16"})).message, "--hidden: '3' is not 16");
+  EXPECT_EQ(failure_of(BadOption({"SCENE", "", "it is missing", "one"})).message,
+            "SCENE: it is missing, expected one");
 }
 
 TEST(ExitCodes, ADivergedTrainingHasAdviceOfItsOwn) {

@@ -31,6 +31,7 @@ TEST(LiveFlags, ThatExcludeEachOtherDoNotStay) {
   EXPECT_EQ(changed({{"eye", "1,2,3"}, {"target", "0,0,0"}}, {{"camera", "1"}}),
             (LiveFlags{{"camera", "1"}}));
   EXPECT_EQ(changed({{"environment", "none"}}, {{"sky", "sun=10,20"}}), (LiveFlags{{"sky", "sun=10,20"}}));
+  EXPECT_EQ(changed({{"lens", "50"}}, {{"fov", "40"}}), (LiveFlags{{"fov", "40"}}));
 }
 
 TEST(LiveFlags, RefuseWhatAWindowDoesNotChange) {

@@ -192,7 +192,7 @@ TEST(Ocio, MissingNamesAreReportedWithTheAvailableOnes) {
       [&] {
         check({config, "cinema", ""});
       },
-      {"ocio-display", "cinema", "", "'screen', 'wall'"});
+      {"ocio-display", "cinema", "", "'wall'"});
   expect_refused_parts<BadOption>(
       [&] {
         check({config, "screen", "film"});
