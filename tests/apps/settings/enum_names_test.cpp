@@ -20,7 +20,7 @@ constexpr bool is_enumerator() {
 }
 
 template <class Enumeration>
-class Words : public ::testing::Test {};
+class EnumNames : public ::testing::Test {};
 
 using Enumerations =
     ::testing::Types<Integrator, MisHeuristic, DirectLight, PixelFilter, NanPolicy, Aov, MatteKind,
@@ -28,9 +28,9 @@ using Enumerations =
                      CachePreset, Tonemap, neural::FeatureEncoding, neural::ResolutionRule,
                      neural::NodeStorage, neural::Loss, neural::FeatureUpdate, neural::FeatureStep,
                      neural::FeaturePrecision>;
-TYPED_TEST_SUITE(Words, Enumerations);
+TYPED_TEST_SUITE(EnumNames, Enumerations);
 
-TYPED_TEST(Words, EachEnumeratorHasANameThatIsParsedBack) {
+TYPED_TEST(EnumNames, EachEnumeratorHasANameThatIsParsedBack) {
   constexpr auto& kTable = kEnumNames<TypeParam>;
   std::size_t i = 0;
   for (const Choice<TypeParam>& choice : kTable) {
