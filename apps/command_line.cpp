@@ -10,8 +10,6 @@
 #include <string_view>
 #include <vector>
 
-#include "apps/describe_program.h"
-#include "apps/manual/complete.h"
 #include "apps/settings/config_file.h"
 #include "apps/settings/flags.h"
 #include "apps/settings/help_format.h"
@@ -187,12 +185,6 @@ int fail(const ConfigFile& config) {
   return failure.code;
 }
 
-/// `gatelight __complete -- WORD...`, by which the scripts of `gatelight completion` ask.
-bool wants_completion(int argc, const char* const* argv) {
-  using std::string_view_literals::operator""sv;
-  return argc > 2 && argv[1] == "__complete"sv && argv[2] == "--"sv;
-}
-
 int parse(int argc, const char* const* argv, bool runs, const RankGroup& group) {
   CLI::App root("Gatelight, an offline path tracer for glTF scenes", "gatelight");
   root.footer(kProgramFooter);
@@ -213,9 +205,9 @@ int parse(int argc, const char* const* argv, bool runs, const RankGroup& group) 
       add_sweep_command(root, std::vector<std::string>(argv, argv + argc)),
       add_completion_command(root),
   };
-  if (runs && wants_completion(argc, argv)) {
-    const std::vector<std::string> words(argv + 3, argv + argc);
-    write_text("-", text_of(complete(describe_program(root, subcommands), words)));
+  // The scripts of `gatelight completion` ask.
+  if (runs && argc > 1 && std::string_view(argv[1]) == "__complete") {
+    write_text("-", completions(root, {argv + 2, argv + argc}));
     return kDone;
   }
   try {

@@ -196,7 +196,6 @@ std::vector<Option> option_table(CompareSettings& settings) {
       choice("tonemap", settings.flip.tonemap, "For flip, ssim and temporal: curve of pictures")};
   for (Option& option : table) {
     if (option.name == "halves") option.words = 2;
-    if (option.name == "metric") option.names = choice_names(kMetrics);
     if (option.name == "pixels-per-degree") option.default_text = "67.02";
   }
   return table;
@@ -208,9 +207,8 @@ Subcommand add_compare_command(CLI::App& root) {
   CLI::App* app =
       add_subcommand(root, "compare", "Measure how far one picture is from another", kCompareFooter);
   const auto settings = std::make_shared<CompareSettings>();
-  const std::vector<Option> options = option_table(*settings);
-  add_flags(*app, options);
-  return {.app = app, .run = [settings] { return run_compare(*settings); }, .options = options};
+  add_flags(*app, option_table(*settings));
+  return {.app = app, .run = [settings] { return run_compare(*settings); }};
 }
 
 }  // namespace gatelight::apps

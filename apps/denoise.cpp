@@ -66,15 +66,11 @@ std::vector<Option> denoise_table(DenoiseSettings& settings) {
 Subcommand add_denoise_command(CLI::App& root) {
   CLI::App* app = add_subcommand(root, "denoise", "Take the noise out of a picture", kDenoiseFooter);
   const auto settings = std::make_shared<DenoiseSettings>();
-  const std::vector<Option> options = denoise_table(*settings);
-  add_flags(*app, options);
-  return {.app = app,
-          .run =
-              [app, settings] {
-                const std::vector<std::string> given = given_names(*app);
-                return denoise(*settings, {given.begin(), given.end()});
-              },
-          .options = options};
+  add_flags(*app, denoise_table(*settings));
+  return {.app = app, .run = [app, settings] {
+            const std::vector<std::string> given = given_names(*app);
+            return denoise(*settings, {given.begin(), given.end()});
+          }};
 }
 
 }  // namespace gatelight::apps

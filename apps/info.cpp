@@ -207,7 +207,7 @@ Subcommand add_info_command(CLI::App& root) {
             for (const char* name : {"SCENE", "json", "command"}) settings->render.given.erase(name);
             return run_info(*settings);
           },
-          common_names(options), false, options};
+          common_names(options)};
 }
 
 }  // namespace gatelight::apps

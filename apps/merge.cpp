@@ -105,9 +105,8 @@ Subcommand add_merge_command(CLI::App& root) {
   output.required = true;
   Option inputs = any_words("INPUT", settings->inputs, "", "Pictures, .exr");
   inputs.positional = inputs.required = true;
-  const std::vector<Option> options = {output, inputs};
-  add_flags(*app, options);
-  return {.app = app, .run = [settings] { return run_merge(*settings); }, .options = options};
+  add_flags(*app, {output, inputs});
+  return {.app = app, .run = [settings] { return run_merge(*settings); }};
 }
 
 }  // namespace gatelight::apps

@@ -67,7 +67,7 @@ Subcommand add_render_command(CLI::App& root, const std::vector<std::string>& co
             finish_flags(*app, *settings);
             return run_render(*settings, command, group);
           },
-          common_names(options), true, options};
+          common_names(options), true};
 }
 
 }  // namespace gatelight::apps

@@ -20,7 +20,6 @@ struct Subcommand {
   std::function<int()> run;        ///< called after parsing; returns the exit code, or throws
   std::set<std::string> common{};  ///< flags of the short help, without their dashes; empty: all
   bool of_ranks = false;           ///< several ranks may run it together
-  std::vector<Option> options{};   ///< its flags, for completion
 };
 
 Subcommand add_render_command(CLI::App& root, const std::vector<std::string>& command,
@@ -32,5 +31,9 @@ Subcommand add_denoise_command(CLI::App& root);
 Subcommand add_view_command(CLI::App& root);
 Subcommand add_sweep_command(CLI::App& root, const std::vector<std::string>& command);
 Subcommand add_completion_command(CLI::App& root);
+
+/// The words that may take the place of the last one, a line each; none where that is a name of a file, or of
+/// the user's. `words`: those after the program's name.
+std::string completions(const CLI::App& root, const std::vector<std::string>& words);
 
 }  // namespace gatelight::apps

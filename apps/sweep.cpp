@@ -94,7 +94,6 @@ void add_axes(std::vector<Option>& table, SweepArguments& words) {
     axes.add({.name = flag.name + 2,
               .unit = "LIST",
               .help = flag.help,
-              .like = flag.varies,
               .read = [&words, flag](const std::string& text) { words.axes.emplace_back(flag, text); },
               .default_text = flag.default_text});
   }
@@ -110,8 +109,7 @@ void add_axes(std::vector<Option>& table, SweepArguments& words) {
   axes.add(
       toggle("no-plain", words.no_plain, "Do not measure integrators without a cache beside those with one"));
   const std::string help = fmt::format("Axes and flags at once: {}", fmt::join(sweep_preset_names(), ", "));
-  axes.add(any_word("preset", words.preset, "NAME", help.c_str())).names =
-      fmt::format("{}", fmt::join(sweep_preset_names(), "|"));
+  axes.add(any_word("preset", words.preset, "NAME", help.c_str()));
 }
 
 void add_reference_options(std::vector<Option>& table, SweepSettings& s) {
@@ -164,10 +162,9 @@ void add_folder_options(std::vector<Option>& table, SweepSettings& s) {
 void add_base_flags(std::vector<Option>& table, SweepArguments& words) {
   OptionGroup base{table, ""};
   for (const std::string& name : base_flag_names()) {
-    base.add({.name = name.substr(2),
-              .unit = "VALUE",
-              .like = name,
-              .read = [&words, name](const std::string& text) { set_flag(words.base, name, text); }});
+    base.add({.name = name.substr(2), .unit = "VALUE", .read = [&words, name](const std::string& text) {
+                set_flag(words.base, name, text);
+              }});
   }
 }
 
@@ -221,17 +218,13 @@ Subcommand add_sweep_command(CLI::App& root, const std::vector<std::string>& com
   CLI::App* app =
       add_subcommand(root, "sweep", "Measure error against time and steps over options", kSweepFooter);
   const auto call = std::make_shared<SweepCall>();
-  const std::vector<Option> options = option_table(*call);
-  add_flags(*app, options);
-  return {.app = app,
-          .run =
-              [call, command, app] {
-                set_json_messages(call->settings.progress == ProgressMode::json);
-                check(*call, *app);
-                call->settings.request = make_request(call->words);
-                return run_sweep(call->settings, command);
-              },
-          .options = options};
+  add_flags(*app, option_table(*call));
+  return {.app = app, .run = [call, command, app] {
+            set_json_messages(call->settings.progress == ProgressMode::json);
+            check(*call, *app);
+            call->settings.request = make_request(call->words);
+            return run_sweep(call->settings, command);
+          }};
 }
 
 }  // namespace gatelight::apps

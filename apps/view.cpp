@@ -116,7 +116,7 @@ Subcommand add_view_command(CLI::App& root) {
             finish_flags(*app, window->render);
             return run_view(*window);
           },
-          common_names(options), false, options};
+          common_names(options)};
 }
 
 }  // namespace gatelight::apps

@@ -44,7 +44,7 @@ else()
   message(STATUS "No manual pages: help2man is not there, or the program does not run on this machine")
 endif()
 # bash and fish look for a script by the program's name; that for zsh names its programs.
-set(shell ${PROJECT_SOURCE_DIR}/apps/manual/shell)
+set(shell ${PROJECT_SOURCE_DIR}/apps/shell)
 install(FILES ${shell}/gatelight.zsh DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions RENAME _gatelight)
 foreach(program IN ITEMS gatelight gatelight-mpi)
   if(NOT TARGET ${program})

@@ -51,8 +51,6 @@ struct Option {
   std::string name;  ///< of the flag, without its dashes
   std::string unit;  ///< placeholder of the value in the help; empty: the flag takes no value
   std::string help;
-  std::string names{};  ///< "a|b": the words of the value or its list, where the unit does not name them
-  std::string like{};   ///< the flag of `render` that has the same values
   std::function<OptionValue()> value;            ///< in recipes
   std::function<void(const std::string&)> read;  ///< throws BadOption
   std::function<std::string()> write;            ///< the text for read(), where it is not the value's

@@ -107,7 +107,6 @@ Option aov_option(std::vector<Aov>& aovs) {
   return {.name = "aov",
           .unit = "LIST",
           .help = help,
-          .names = choice_names(kEnumNames<Aov>) + "|all",
           .value = [&] { return words_of(aovs); },
           .read = [&](const std::string& text) { aovs = read_words<Aov>("aov", text, "all"); },
           .common = true,
@@ -122,7 +121,6 @@ Option cryptomatte_option(std::vector<MatteKind>& kinds) {
               "Masks for compositing in EXR files, by the names of objects, of materials or of both: the "
               "layers of the Cryptomatte specification, six names a pixel; glass and mirrors are objects "
               "themselves",
-          .names = choice_names(kEnumNames<MatteKind>),
           .value = [&]() -> OptionValue { return kinds.empty() ? OptionValue() : words_of(kinds); },
           .read = [&](const std::string& text) { kinds = read_words<MatteKind>("cryptomatte", text); },
           .in_sweep = false,
