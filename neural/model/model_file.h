@@ -37,8 +37,7 @@ ModelState read_model_content(SafetensorsReader& file, const Model& model, const
 /// message.
 void expect_text(const SafetensorsReader& file, const std::string& key, const std::string& what,
                  const std::string& expected);
-/// Throws CacheFileError unless the file has this version and the right digest, or the previous version,
-/// which had no digest.
+/// Throws CacheFileError unless the file has this version and the right digest.
 void expect_version(SafetensorsReader& file, int version);
 /// Throws CacheFileError if read_model_content would refuse the file because of its model, its options, or
 /// the type or shape of a tensor. It reads no tensor, so it can run before memory for the state is allocated.

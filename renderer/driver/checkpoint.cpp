@@ -221,8 +221,7 @@ void write_checkpoint(const std::filesystem::path& path, const CheckpointIdentit
 
 Checkpoint::Checkpoint(const std::filesystem::path& path) : file_(path) {
   neural::expect_text(file_, "format", "format", kFormat);
-  neural::expect_text(file_, "version", "format version", fmt::format("{}", kVersion));
-  expect_digest(file_);
+  neural::expect_version(file_, kVersion);
   const std::string phase = text_at(file_, kPhase);
   if (phase != phase_name(Phase::train) && phase != phase_name(Phase::render))
     file_.fail(fmt::format("phase: '{}', expected train or render", phase));

@@ -76,10 +76,7 @@ std::set<std::string> frame_tensors() {
 FrameFile::FrameFile(const std::filesystem::path& path) : file_(path) {
   const auto format = file_.metadata().find("format");
   const bool alone = format != file_.metadata().end() && format->second == kFrameFormat;
-  if (alone) {
-    neural::expect_version(file_, kFrameVersion);
-    expect_digest(file_);
-  }
+  if (alone) neural::expect_version(file_, kFrameVersion);
   const std::optional<double> seconds = number_of<double>(file_, kLayoutSeconds);
   status_ = {.frame = number_of<int>(file_, kNumber),
              .layout_seconds = seconds.value_or(0.0),

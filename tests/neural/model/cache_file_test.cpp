@@ -108,15 +108,5 @@ TEST(CacheFile, HalfFeaturesTakeHalfTheBytes) {
   for (std::uint64_t i = 0; i < layout.network; ++i) ASSERT_EQ(half_to_float(halves[i]), state.parameters[i]);
 }
 
-TEST(CacheFile, AFileOfTheVersionWithoutADigestIsStillRead) {
-  const TemporaryFolder folder;
-  const ModelCase c = tiny_case();
-  const Trainer saved = make_trainer(c, {}, 1);
-  save_version_1(saved, folder / "a");
-  Trainer trainer = make_trainer(c, {}, 2);
-  trainer.load(folder / "a", kFingerprint);
-  EXPECT_TRUE(same_bits(state_of(trainer), state_of(saved)));
-}
-
 }  // namespace
 }  // namespace gatelight::neural::testing

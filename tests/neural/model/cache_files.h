@@ -5,10 +5,13 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "base/errors.h"
+#include "base/file/content_digest.h"
 #include "base/file/safetensors.h"
 #include "neural/model/model_file.h"
 #include "neural/trainer.h"
@@ -44,12 +47,21 @@ inline void expect_load_refused(Trainer& trainer, const std::filesystem::path& p
   expect_refusal<CacheFileError>([&] { trainer.load(path, fingerprint); }, names, place);
 }
 
-/// Writes a file of version 1, which has no digest, so tests can edit it.
-inline void save_version_1(const Trainer& trainer, const std::filesystem::path& path) {
+/// Writes a file with the right digest.
+inline void write_with_digest(const std::filesystem::path& path, const std::vector<TensorView>& tensors,
+                              Metadata metadata) {
+  metadata[kDigestKey] = content_digest(tensors, metadata);
+  write_safetensors(path, tensors, metadata);
+}
+
+/// Writes the trainer's file as `edit` changes it.
+inline void save_edited(const Trainer& trainer, const std::filesystem::path& path,
+                        const std::function<void(ModelContent&)>& edit) {
   const ModelState state = state_of(trainer);
   ModelContent content = make_model_content(trainer.model(), {}, state);
-  content.metadata.insert({{"format", "gatelight-cache"}, {"version", "1"}, {"fingerprint", kFingerprint}});
-  write_safetensors(path, content.tensors, content.metadata);
+  content.metadata.insert({{"format", "gatelight-cache"}, {"version", "2"}, {"fingerprint", kFingerprint}});
+  edit(content);
+  write_with_digest(path, content.tensors, content.metadata);
 }
 
 /// A model with few nodes, because tests load mutations of every byte.

@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "base/errors.h"
+#include "base/file/content_digest.h"
 #include "renderer/cache/cache_content.h"
 #include "tests/support/cached_state.h"
 #include "tests/support/messages.h"
@@ -174,7 +175,7 @@ TEST(SceneCacheFile, EveryChangedByteAndEveryTruncationIsRefused) {
   expect_message(opening(bytes + '\0'), {"/b"});
 }
 
-TEST(SceneCacheFile, AFileOfTheVersionWithoutADigestIsStillRead) {
+TEST(SceneCacheFile, AnotherVersionAndAFileWithoutADigestAreRefused) {
   const TemporaryFolder folder;
   const auto model = small_model();
   const CacheState state = any_cache_state(*model, {}, 1);
@@ -183,7 +184,7 @@ TEST(SceneCacheFile, AFileOfTheVersionWithoutADigestIsStillRead) {
   Metadata metadata = content.model.metadata;
   metadata.insert({{"format", "gatelight-scene-cache"}, {"version", "2"}});
   write_safetensors(folder / "a", content.tensors, metadata);
-  EXPECT_TRUE(same_bits(CacheFile(folder / "a").read_state(*model, {}), state));
+  expect_message(refusal<CacheFileError>([&] { CacheFile(folder / "a"); }), {"version", "2", "3"});
   metadata["version"] = "3";
   write_safetensors(folder / "a", content.tensors, metadata);
   expect_message(refusal<CacheFileError>([&] { CacheFile(folder / "a"); }), {"digest"});
@@ -202,7 +203,8 @@ TEST(SceneCacheFile, ATensorThatIsTooShortForTheModelIsRefusedBeforeAllocation) 
     tensor.data = tensor.data.first(4 * tensor.shape[1]);
   }
   Metadata metadata = content.model.metadata;
-  metadata.insert({{"format", "gatelight-scene-cache"}, {"version", "2"}});
+  metadata.insert({{"format", "gatelight-scene-cache"}, {"version", "3"}});
+  metadata[kDigestKey] = content_digest(content.tensors, metadata);
   write_safetensors(folder / "a", content.tensors, metadata);
   const CacheFile file(folder / "a");
   expect_message(refusal<CacheFileError>([&] { file.expect_model(*model, {}); }), {"features", "F32 [1, 1]"});
