@@ -25,7 +25,9 @@ TEST(DamagedCacheFile, AForeignFileAndAnotherVersionAreRefused) {
   const auto text = [](const char* key, const char* value) {
     return [=](ModelContent& content) { content.metadata[key] = value; };
   };
-  const auto without = [](const char* key) { return [=](ModelContent& c) { c.metadata.erase(key); }; };
+  const auto without = [](const char* key) {
+    return [=](ModelContent& content) { content.metadata.erase(key); };
+  };
   expect_refused(text("version", "3"), {"version", "3", "2"});
   expect_refused(text("version", "1"), {"version", "1", "2"});
   write_safetensors(folder / "a", {}, {{"format", "gatelight-cache"}, {"version", "2"}});
