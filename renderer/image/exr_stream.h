@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <cstdint>
 #include <cstdio>
+#include <mutex>
 #include <system_error>
 
 namespace gatelight::renderer {
@@ -52,6 +53,9 @@ class StdioStream final : public Imf::OStream {
 inline int exr_threads() {
   const auto threads =
       static_cast<int>(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
+  // Another number replaces the library's pool, in which another thread may already write.
+  static std::mutex mutex;
+  const std::lock_guard lock(mutex);
   if (threads > 1 && Imf::globalThreadCount() < threads) Imf::setGlobalThreadCount(threads);
   return threads > 1 ? threads : 0;
 }
