@@ -123,7 +123,7 @@ std::string reference_html(const Section& section, const std::filesystem::path& 
     html += "<figure>" + picture_html(folder, section.reference.at("file"), name, display) +
             element("figcaption", name) + "</figure>\n";
   }
-  return html;
+  return html + element("figcaption", "FLIP maps are black at 0 and light yellow at 1.");
 }
 
 /// An error against seconds, or against training steps. An error of zero or below, less than the noise of the
