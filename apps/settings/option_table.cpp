@@ -35,7 +35,7 @@ constexpr Choice<ProgressMode> kProgressModes[] = {{"auto", ProgressMode::automa
 /// Options of the call, which do not change its results.
 void add_call_options(OptionGroup& group, RenderSettings& settings) {
   auto& [scene, outputs, render, load, frames, image, exposure, eye, target, up, view_file, config, stats,
-         live, skip_existing, progress, reproducible, quiet, verbose, preset, given] = settings;
+         skip_existing, progress, reproducible, quiet, verbose, preset, given] = settings;
   const auto add = [&](Option option) {
     group.add(in_recipe(not_in_sweep(std::move(option)), InRecipe::never));
   };

@@ -107,12 +107,12 @@ PathBlock* CachedPaths::scatter(std::uint32_t number, Path& path, const Ray& ray
 
   if (plan.query_at == QueryAt::spread || plan.samples_at == QueryAt::spread) {
     // Mueller et al. 2021, equations 3 and 4; a direction of a delta lobe does not spread.
-    const float distance = path.departure.travelled + hit.t;
+    const float distance = path.previous.travelled + hit.t;
     const float cosine = std::max(std::abs(m.surface.geometric_normal.dot(m.wo)), 1e-4f);
     if (path.surfaces == 0) {
       path.first_spread = distance * distance * kInvFourPi / cosine;
-    } else if (!path.departure.delta && path.departure.pdf > 0.0f) {
-      path.spread += distance / std::sqrt(path.departure.pdf * cosine);
+    } else if (!path.previous.delta && path.previous.pdf > 0.0f) {
+      path.spread += distance / std::sqrt(path.previous.pdf * cosine);
     }
   }
   const bool kernels = path.kernels_shade(m);
