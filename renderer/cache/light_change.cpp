@@ -20,8 +20,10 @@ constexpr std::array<float, 2> kCells = {16.0f, 4.0f};
 constexpr double kMinRecords = 64.0;
 /// A cell has changed where its mean error is this much of its light, and this many standard errors.
 constexpr double kMinError = 0.3;
-/// The same for the whole scene: answers may be far off in a cell, but not in the mean of all.
-constexpr double kMinErrorOfAll = 0.05, kJustKept = 0.99 * kOtherLight;
+/// The same for the whole scene: answers may be far off in a cell, but not in the mean of all. Only many
+/// records of even light decide it: a mean that lacks its rare bright samples is as dark as if a lamp had
+/// been dimmed.
+constexpr double kMinErrorOfAll = 0.05, kMinRecordsOfAll = 8192.0, kMaxVarianceOfAll = 4.0;
 constexpr double kStandardErrors = 4.0;
 /// Noise of light has a long tail, which few records seldom meet: a cell's relative variance is at least this
 /// share of that of all records.
@@ -131,9 +133,8 @@ double light_change(const scene::Scene& scene, const RecordBatch& group, std::sp
   }
   double sum = 0.0;
   for (const Met& m : met) sum += m.change.value_or(0.0);
-  double of_all = all.change(least_variance, kMinErrorOfAll).value_or(0.0);
-  // A cache has some bias, which a new one would have too.
-  if (of_all < kMinError) of_all = std::min(of_all, kJustKept);
+  const bool is_even = all.records >= kMinRecordsOfAll && all.relative_variance() <= kMaxVarianceOfAll;
+  const double of_all = is_even ? all.change(least_variance, kMinErrorOfAll).value_or(0.0) : 0.0;
   return std::max(sum / all.records, of_all);
 }
 

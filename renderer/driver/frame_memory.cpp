@@ -15,6 +15,8 @@
 namespace gatelight::renderer {
 namespace {
 
+/// From this change of the light on the cache begins anew.
+constexpr double kChanged = 0.1;
 /// Steps of a cache for many frames, in those of a still with as many samples: presets of frames have three
 /// quarters of the samples of a still, and as many steps.
 constexpr double kStepsOfFrames = 4.0 / 3.0;
@@ -136,12 +138,12 @@ void FrameMemory::write(const PreparedPicture& picture, const std::filesystem::p
 }
 
 int steps_after_change(double change, int steps) {
-  const double share = std::clamp((change - kUnchangedLight) / (kOtherLight - kUnchangedLight), 0.0, 1.0);
+  const double share = std::clamp((change - kUnchangedLight) / (kChanged - kUnchangedLight), 0.0, 1.0);
   return static_cast<int>(std::lround(share * steps));
 }
 
 bool begins_anew(double change) {
-  return change >= kOtherLight;
+  return change >= kChanged;
 }
 
 }  // namespace gatelight::renderer
