@@ -146,7 +146,7 @@ TEST(Materials, NestedMediaLoseNoLight) {
     return look(builder.scene(), options);
   };
   double worst = 0.0;
-  for (const int count : {2, Interior::kMax}) {
+  for (const int count : {2, MediumStack::kMax}) {
     for (const float step : {0.0f, 0.3f}) {
       const Seen seen = balls(count, step);
       EXPECT_LT(seen.off, 0.01) << count << " " << step;
