@@ -59,7 +59,7 @@ Failure failure_of(const Error& error) {
   const bool plain = parts.option.empty();
   const char* const about =
       plain && error.kind() == ErrorKind::model ? "the cache cannot have these options: " : "";
-  return {rule.code, plain ? about + std::string(error.what()) : sentence(parts), rule.advice};
+  return {rule.code, about + with_flags(plain ? error.what() : sentence(parts)), rule.advice};
 }
 
 /// oneTBB throws an error of no kind where it cannot start a thread.

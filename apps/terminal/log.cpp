@@ -47,7 +47,7 @@ bool json_messages() {
 }
 
 void log_warning(const std::string& text) {
-  log(spdlog::level::warn, "warning", text);
+  log(spdlog::level::warn, "warning", with_flags(text));
 }
 
 void log_detail(const std::string& text) {

@@ -67,6 +67,23 @@ std::string json_text(const nlohmann::ordered_json& json, int indent) {
   return json.dump(indent, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
+std::string with_flags(std::string_view message) {
+  constexpr const char* kName = "abcdefghijklmnopqrstuvwxyz0123456789-";
+  std::string text;
+  while (!message.empty()) {
+    const std::size_t end = message.front() == '`' ? message.find_first_not_of(kName, 1) : 0;
+    if (end != std::string_view::npos && end > 1 && message[end] == '`') {
+      text += "--";
+      text += message.substr(1, end - 1);
+      message.remove_prefix(end + 1);
+    } else {
+      text += message.front();
+      message.remove_prefix(1);
+    }
+  }
+  return text;
+}
+
 std::string quote_command(const std::vector<std::string>& command) {
   constexpr const char* kPlain = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-+=./:,@%";
   std::string line;

@@ -25,6 +25,10 @@ std::string format_percent(double fraction);  ///< "0.31 %", "3.1 %", "312 %"
 /// JSON as text. Bytes that are not UTF-8, which file names may have, are replaced. indent -1: one line.
 std::string json_text(const nlohmann::ordered_json& json, int indent = 1);
 
+/// The libraries put names of options in back-ticks; the program shows its flags: `max-depth` becomes
+/// --max-depth.
+std::string with_flags(std::string_view message);
+
 /// The command with the quotes that a shell needs.
 std::string quote_command(const std::vector<std::string>& command);
 

@@ -285,7 +285,7 @@ TEST_F(CacheCommand, InfoDescribesTheCacheOfARender) {
 TEST_F(CacheCommand, AnImpossibleCacheIsCode1) {
   const Output output =
       render({"--integrator", "nrc", "--cache-memory", "0.0001", "-o", path("a.png"), "--quiet"});
-  expect_failure(output, 1, {"cache", "105 bytes"});
+  expect_failure(output, 1, {"cache-memory", "105", "768"});
 }
 
 TEST_F(CacheCommand, ATrainingThatDivergesIsCode6) {

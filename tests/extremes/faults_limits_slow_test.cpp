@@ -161,7 +161,7 @@ TEST_F(Limits, TheErrorNamesHowManyThreadsCanBeStarted) {
                                           const rlimit limit{mebibytes << 20, mebibytes << 20};
                                           ::setrlimit(RLIMIT_AS, &limit);
                                         });
-    expect_failure(output, 4, {"`threads` 1000"});
+    expect_failure(output, 4, {"--threads 1000"});
     ++refusals;
   }
   report_extreme("threads that cannot be started", "--threads 1000 within 1 to 3 GiB of address space", "",
@@ -180,7 +180,7 @@ TEST_F(Limits, PictureSizesAreRefusedBeforeMemoryIsAllocated) {
     expect_failure(render(size, "0"), 1, {"--size", size, "WxH", "65536"});
   }
   expect_failure(render("65536x65536", "0"), 1, {"4294967296", "268435456"});
-  expect_failure(render("65536x4096", "1000"), 4, {"`memory-limit` 1000"});
+  expect_failure(render("65536x4096", "1000"), 4, {"--memory-limit 1000"});
   expect_failure(render("65536x4096", "0"), 4, {"ulimit -v"});
   EXPECT_EQ(render("65536x1", "0").exit_code, 0);
   EXPECT_EQ(render("1x65536", "0").exit_code, 0);

@@ -33,7 +33,7 @@ TEST_F(OtherTools, TellsWhatWordsOfOtherToolsAreHere) {
            {{"render", square, "-o", "a.png", "-t", "4"}, "here it is '--threads N'"},
            {{"render", square, "--outfile", "a.png"}, "here it is '-o FILE'"},
            {{"render", square, "-o", "a.png", "--resolution", "64x48"},
-            "the size of the picture is '--size WxH'"}}) {
+            "the size of the picture is --size WxH"}}) {
     const Output output = run_gatelight_inside(arguments);
     EXPECT_EQ(output.exit_code, 1);
     EXPECT_THAT(output.last_error_line(), HasSubstr(hint));

@@ -69,7 +69,7 @@ bool is_of_gate(const Option& option, const RenderOptions& options) {
   RenderOptions gate = options;
   gate.cache.encoding = neural::FeatureEncoding::gate;
   return std::any_of(option.needs.begin(), option.needs.end(), [&](const Requirement& r) {
-    return std::string_view(r.expected) == "--encoding gate" && !r.met(options) && r.met(gate);
+    return std::string_view(r.expected) == "`encoding` gate" && !r.met(options) && r.met(gate);
   });
 }
 

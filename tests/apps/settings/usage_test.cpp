@@ -318,7 +318,7 @@ TEST_F(Usage, OutputsThatCannotBeWrittenAreCode3BeforeTheWork) {
 
 TEST_F(Usage, MemoryOverTheLimitIsCode4) {
   const Output output = refused({"--memory-limit", "1", "--size", "4096x4096"});
-  expect_failure(output, 4, {"`memory-limit` 1"});
+  expect_failure(output, 4, {"--memory-limit 1"});
 }
 
 TEST_F(Usage, AConfigFileSetsFlagsAndTheCommandLineWins) {

@@ -37,5 +37,11 @@ TEST(Text, CommandsSurviveAShell) {
             R"(gatelight render 'my scene.glb' 'it'\''s' '' --eye -1,2,3)");
 }
 
+TEST(WithFlags, NamesFlagsButNotOtherWordsInBackTicks) {
+  EXPECT_EQ(with_flags("`max-depth` 3 and `b2`"), "--max-depth 3 and --b2");
+  for (const char* other : {"", "`", "``", "`open", "`gatelight render`", "`A`"})
+    EXPECT_EQ(with_flags(other), other);
+}
+
 }  // namespace
 }  // namespace gatelight::apps
