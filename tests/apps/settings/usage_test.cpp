@@ -233,7 +233,7 @@ const std::vector<BadValue> kBadValues = {
     {{"--lights", "lamp=off;"}, {"--lights", "''", "NAME=off"}},
     {{"--light-groups", "key"}, {"--light-groups", "key", "NAME=LIGHT"}},
     {{"--light-groups", "rest=lamp"}, {"--light-groups", "rest"}},
-    {{"--light-groups", "key=lamp", "--integrator", "ao"}, {"--light-groups", "ao", "`integrator` path"}},
+    {{"--light-groups", "key=lamp", "--integrator", "ao"}, {"--light-groups", "ao", "--integrator path"}},
     {{"--eye", "1,2", "--target", "0,0,0"}, {"--eye", "1,2"}},
     {{"--eye", "1,2,3"}, {"--target", "eye"}},
     {{"--eye", "1,2,3", "--target", "1,2,3"}, {"--target", "1,2,3"}},
