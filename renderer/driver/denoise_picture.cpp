@@ -79,7 +79,8 @@ EditedExr edited_exr(const std::filesystem::path& file, const Picture& denoised,
     const Layer& result = *denoised.find(some.result);
     std::vector<std::string>& channels = edited.channels[some.result];
     if (some.own) channels = result.channels;
-    for (const std::size_t index : color_channels(result).value()) channels.push_back(result.channels[index]);
+    const auto colors = color_channels(result).value();  // a temporary ends before the loop
+    for (const std::size_t index : colors) channels.push_back(result.channels[index]);
   }
   return edited;
 }
