@@ -7,6 +7,7 @@
 #include "apps/terminal/errors.h"
 #include "apps/terminal/log.h"
 #include "apps/terminal/terminal.h"
+#include "apps/terminal/text.h"
 
 namespace gatelight::apps {
 namespace {
@@ -26,7 +27,7 @@ Console::Console(const RenderSettings& settings, bool speaks)
       json_(settings.progress == ProgressMode::json) {}
 
 void Console::warn(const std::string& text) {
-  report.warnings.push_back(text);
+  report.warnings.push_back(with_flags(text));
   if (!printed_.insert(text).second) return;
   progress.clear();
   log_warning(text);

@@ -25,8 +25,6 @@ class PictureMaker {
   /// badly, after its files are written.
   int finish(renderer::Picture picture, const renderer::RenderStatistics& statistics);
 
-  const RenderSettings& settings() const { return settings_; }
-
  private:
   void write(renderer::Picture picture, const renderer::RenderStatistics& statistics,
              const std::vector<std::string>& outputs);

@@ -319,7 +319,7 @@ ordered_json scene_report_json(const scene::Scene& scene, const SceneRequirement
                           {"render_estimate", render_bytes(scene)}};
   json["seconds"] = {{"load", load_seconds}};
   json["warnings"] = ordered_json::array();
-  for (const std::string& warning : scene.warnings) json["warnings"].push_back(warning);
+  for (const std::string& warning : scene.warnings) json["warnings"].push_back(with_flags(warning));
   return json;
 }
 
