@@ -1,5 +1,5 @@
 #pragma once
-// The row that a test reports for the table of scripts/check/write-extremes.
+// What a test of the extremes tried and found, for the report of --gtest_output=json:FILE.
 
 #include <gtest/gtest.h>
 

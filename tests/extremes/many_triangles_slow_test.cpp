@@ -17,8 +17,7 @@ namespace {
 
 using namespace testing;
 
-/// Number of triangles: GATELIGHT_MANY_TRIANGLES, or a million. scripts/check/write-extremes sets ten
-/// million.
+/// Number of triangles: GATELIGHT_MANY_TRIANGLES, or a million.
 std::size_t wanted() {
   const char* text = std::getenv("GATELIGHT_MANY_TRIANGLES");
   return text ? std::stoull(text) : 1'000'000;
