@@ -58,6 +58,11 @@ def write(path, text):
     os.replace(path + ".part", path)
 
 
+def errors(program, reference, test, *flags):
+    """What 'gatelight compare' says of the second picture, as its JSON."""
+    return json.loads(run([program, "compare", reference, test, "--json", "-", *flags]))
+
+
 def print_table(rows):
     """Rows of text in columns: the first to the left, the others to the right."""
     widths = [max(map(len, column)) for column in zip(*rows)]
@@ -70,8 +75,9 @@ def parser(description):
     return argparse.ArgumentParser(description=description, formatter_class=argparse.RawDescriptionHelpFormatter)
 
 
-def add_program(to, flag="--gatelight"):
-    to.add_argument(flag, default=os.path.join(PROGRAMS, "gatelight"), metavar="FILE", help="gatelight (default: that of build/release)")
+def add_program(to):
+    to.add_argument("--gatelight", default=os.path.join(PROGRAMS, "gatelight"), metavar="FILE",
+                    help="the program (default: that of build/release)")
 
 
 def integers(text):

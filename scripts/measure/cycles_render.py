@@ -4,10 +4,8 @@ blender -b --factory-startup -P cycles_render.py -- '{"scene": ..., "camera": ..
 python3 cycles_render.py -- '{...}', where the package bpy is installed
 
 Renders one picture for each entry of "spp" and prints their seconds (with the synchronisation of the scene) as one line of
-JSON with the prefix "cycles: ". "out" may be a path for the pictures (.exr in 32-bit float, or .png in sRGB without a view transform), in
-which {spp} stands for their samples. "denoise": by Open Image Denoise with prefiltered albedo and normal, within the seconds.
-"environment" is a colour or the path of a picture, "materials" shader settings that the importer does not support, "hidden" the
-names of objects to leave out."""
+JSON with the prefix "cycles: ". "out" is a path for the pictures (.exr in 32-bit float), in which {spp} stands for their samples.
+"denoise": by Open Image Denoise with prefiltered albedo and normal, within the seconds. "environment" is a colour."""
 
 import json
 import sys
@@ -29,10 +27,6 @@ def main():
     importer = bpy.ops.import_scene.gltf
     lighting = next(name for name in importer.get_rna_type().properties.keys() if name.endswith("convert_lighting_mode"))
     importer(filepath=job["scene"], **{lighting: "COMPAT"})
-    for name in job.get("hidden", []):
-        bpy.data.objects.remove(bpy.data.objects[name])
-    for name, change in job.get("materials", {}).items():
-        set_material(bpy.data.materials[name].node_tree, change)
     scene = bpy.context.scene
     set_camera(scene, job.get("camera"))
     set_sky(scene, job.get("environment"))
@@ -43,8 +37,7 @@ def main():
         begin = time.perf_counter()
         bpy.ops.render.render()
         seconds[spp] = time.perf_counter() - begin
-        if job.get("out"):
-            save(job["out"].format(spp=spp))
+        save(job["out"].format(spp=spp))
     print("cycles: " + json.dumps({"version": bpy.app.version_string, "seconds": seconds}), flush=True)
 
 
@@ -57,27 +50,6 @@ def set_camera(scene, name):
     scene.camera = cameras[name] if name else next(iter(cameras.values()))
 
 
-def set_material(tree, change):
-    """Makes a shader anisotropic along the first UVs, or mixes it with transmitted light."""
-    shader = next(node for node in tree.nodes if node.type == "BSDF_PRINCIPLED")
-    if "anisotropic" in change:
-        tangent = tree.nodes.new("ShaderNodeTangent")
-        tangent.direction_type = "UV_MAP"
-        tree.links.new(tangent.outputs["Tangent"], shader.inputs["Tangent"])
-        for name, key in (("Roughness", "roughness"), ("Anisotropic", "anisotropic"), ("Anisotropic Rotation", "rotation")):
-            for link in list(shader.inputs[name].links):
-                tree.links.remove(link)
-            shader.inputs[name].default_value = change[key]
-    if "through" in change:
-        behind, mix = tree.nodes.new("ShaderNodeBsdfTranslucent"), tree.nodes.new("ShaderNodeMixShader")
-        behind.inputs["Color"].default_value = (*change["color"], 1.0)
-        mix.inputs[0].default_value = change["through"]
-        output = next(node for node in tree.nodes if node.type == "OUTPUT_MATERIAL")
-        tree.links.new(shader.outputs[0], mix.inputs[1])
-        tree.links.new(behind.outputs[0], mix.inputs[2])
-        tree.links.new(mix.outputs[0], output.inputs["Surface"])
-
-
 def set_sky(scene, environment):
     world = bpy.data.worlds.new("sky")
     world.use_nodes = True
@@ -85,12 +57,7 @@ def set_sky(scene, environment):
     background = nodes.get("Background") or nodes.new("ShaderNodeBackground")
     output = next((node for node in nodes if node.type == "OUTPUT_WORLD"), None) or nodes.new("ShaderNodeOutputWorld")
     world.node_tree.links.new(background.outputs["Background"], output.inputs["Surface"])
-    if isinstance(environment, str):
-        picture = world.node_tree.nodes.new("ShaderNodeTexEnvironment")
-        picture.image = bpy.data.images.load(environment)
-        world.node_tree.links.new(picture.outputs["Color"], background.inputs["Color"])
-    else:
-        background.inputs["Color"].default_value = (*(environment or (0.0, 0.0, 0.0)), 1.0)
+    background.inputs["Color"].default_value = (*(environment or (0.0, 0.0, 0.0)), 1.0)
     background.inputs["Strength"].default_value = 1.0
     scene.world = world
 
@@ -126,11 +93,7 @@ def set_sampling(scene, job):
 
 def save(path):
     settings = bpy.context.scene.render.image_settings
-    if path.endswith(".png"):
-        bpy.context.scene.view_settings.view_transform = "Standard"
-        settings.file_format, settings.color_depth, settings.color_mode = "PNG", "8", "RGB"
-    else:
-        settings.file_format, settings.color_depth, settings.color_mode = "OPEN_EXR", "32", "RGB"
+    settings.file_format, settings.color_depth, settings.color_mode = "OPEN_EXR", "32", "RGB"
     bpy.data.images["Render Result"].save_render(path)
 
 

@@ -3,7 +3,8 @@
 import os
 from typing import NamedTuple
 
-ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+from script import ROOT, Failed
+
 SKY = (0.65, 0.8, 1.0)
 # The brightness of the sky over scenes in the open, for each measurement. A change needs new measurements.
 BRIGHTNESS = {"cache": 2.0, "cycles": 1.0}
@@ -47,3 +48,8 @@ SCENES = {
 def add_scenes(parser):
     parser.add_argument("--scenes", default=os.environ.get("GATELIGHT_SCENES"), metavar="DIR",
                         help="folder of the large scenes (default: the environment variable GATELIGHT_SCENES)")
+
+
+def need_scenes(options):
+    if not options.scenes or not os.path.isdir(options.scenes):
+        raise Failed("GATELIGHT_SCENES does not name the folder of the large scenes")
