@@ -2,22 +2,15 @@
 
 import math
 
-from glb import FLOAT, pack, quaternion, round_float
+from glb import quaternion, round_float
 
-WIDTHS = {"SCALAR": 1, "VEC3": 3, "VEC4": 4, "MAT4": 16}
 KINDS = {"translation": "VEC3", "rotation": "VEC4", "weights": "SCALAR", "pointer": "SCALAR"}
-
-
-def floats(glb, values, kind, **bounds):
-    rounded = [round_float(v) for v in values]
-    return glb.append("accessors", {"bufferView": glb.view(pack("f", rounded)), "componentType": FLOAT,
-                                    "count": len(rounded) // WIDTHS[kind], "type": kind, **bounds})
 
 
 def times(glb, keys):
     """An accessor of rising times in seconds."""
     rounded = [round_float(key) for key in keys]
-    return floats(glb, rounded, "SCALAR", min=[rounded[0]], max=[rounded[-1]])
+    return glb.floats(rounded, "SCALAR", min=[rounded[0]], max=[rounded[-1]])
 
 
 def turn_key(degrees, speed):
@@ -47,4 +40,4 @@ class Animation:
     def add(self, target, keys, values, interpolation):
         self.channels.append({"sampler": len(self.samplers), "target": target})
         self.samplers.append({"input": keys, "interpolation": interpolation,
-                              "output": floats(self.glb, values, KINDS[target["path"]])})
+                              "output": self.glb.floats(values, KINDS[target["path"]])})

@@ -4,7 +4,6 @@ import math
 
 import figure_body
 import figure_motion
-from animations import floats
 from figure_motion import INDEX, JOINTS
 from glb import ARRAY_BUFFER, FLOAT, UNSIGNED_SHORT, pack, round_float
 from shapes import merge, sphere, tube
@@ -40,12 +39,9 @@ def skinned(glb, mesh, material, weights, target=None):
         padded = list(pairs) + [(0, 0)] * (4 - len(pairs))
         joints += [joint for joint, _ in padded]
         shares += [weight for _, weight in padded]
-    for name, values, normalized in (("JOINTS_0", joints, False), ("WEIGHTS_0", shares, True)):
-        accessor = {"bufferView": glb.view(pack("B", values), target=ARRAY_BUFFER), "componentType": UNSIGNED_BYTE,
-                    "count": len(weights), "type": "VEC4"}
-        if normalized:
-            accessor["normalized"] = True
-        primitive["attributes"][name] = glb.append("accessors", accessor)
+    for name, values, more in (("JOINTS_0", joints, {}), ("WEIGHTS_0", shares, {"normalized": True})):
+        view = glb.view(pack("B", values), target=ARRAY_BUFFER)
+        primitive["attributes"][name] = glb.accessor(view, UNSIGNED_BYTE, len(weights), "VEC4", **more)
     if target:
         primitive["targets"] = [{"POSITION": sparse(glb, mesh.positions, target.positions),
                                  "NORMAL": sparse(glb, mesh.normals, target.normals)}]
@@ -74,7 +70,7 @@ def joints(glb, pose, root):
             glb.doc["nodes"][nodes[parent]].setdefault("children", []).append(nodes[-1])
     inverse = [v for _, _, (x, y, z) in JOINTS for v in (1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, -x, -y, -z, 1)]
     glb.append("skins", {"name": "figure", "joints": nodes, "skeleton": nodes[0],
-                         "inverseBindMatrices": floats(glb, inverse, "MAT4")})
+                         "inverseBindMatrices": glb.floats(inverse, "MAT4")})
     return nodes
 
 

@@ -58,9 +58,8 @@ def stage(glb):
         glb.place(f"{name} lamp", quad(corner, u, v), lamp)
 
 
-def build(path, pose=None):
-    """`pose` is that of the nodes."""
-    pose = pose or figure_motion.standing()
+def build(path):
+    pose = figure_motion.standing()
     glb = Glb("figure")
     stage(glb)
     walk(glb, clay_figure(glb, pose))

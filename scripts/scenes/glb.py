@@ -7,6 +7,7 @@ import zlib
 
 FLOAT, SHORT, UNSIGNED_SHORT, UNSIGNED_INT = 5126, 5122, 5123, 5125
 ARRAY_BUFFER, ELEMENT_ARRAY_BUFFER = 34962, 34963
+WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT4": 16}
 
 
 def png(width, height, channels, pixels):
@@ -63,6 +64,14 @@ class Glb:
         self.binary += data
         return self.append("bufferViews", {"buffer": 0, "byteOffset": offset, "byteLength": len(data), **more})
 
+    def accessor(self, view, component, count, kind, **more):
+        return self.append("accessors", {"bufferView": view, "componentType": component, "count": count, "type": kind, **more})
+
+    def floats(self, values, kind, target=None, **bounds):
+        """An accessor of rounded values."""
+        view = self.view(pack("f", [round_float(v) for v in values]), **({"target": target} if target else {}))
+        return self.accessor(view, FLOAT, len(values) // WIDTHS[kind], kind, **bounds)
+
     # Textures and materials
 
     def texture(self, name, image, wrap=None):
@@ -112,28 +121,20 @@ class Glb:
         if id(mesh) in self.geometries:
             return self.geometries[id(mesh)][0]
         floats = [round_float(v) for p in mesh.positions for v in p]
-        attributes = {}
-        attributes["POSITION"] = self.append("accessors", {
-            "bufferView": self.view(pack("f", floats), target=ARRAY_BUFFER), "componentType": FLOAT,
-            "count": len(mesh.positions), "type": "VEC3",
-            "min": [min(floats[k::3]) for k in range(3)], "max": [max(floats[k::3]) for k in range(3)]})
+        attributes = {"POSITION": self.floats(floats, "VEC3", ARRAY_BUFFER, min=[min(floats[k::3]) for k in range(3)],
+                                              max=[max(floats[k::3]) for k in range(3)])}
         if mesh.normals:
             # 16 bits a component, padded to 8 bytes a normal: smooth metal shows the steps of 8 bits.
             shorts = [v for n in mesh.normals for v in (*(round(c * 32767) for c in n), 0)]
-            attributes["NORMAL"] = self.append("accessors", {
-                "bufferView": self.view(pack("h", shorts), byteStride=8, target=ARRAY_BUFFER),
-                "componentType": SHORT, "normalized": True, "count": len(mesh.normals), "type": "VEC3"})
+            view = self.view(pack("h", shorts), byteStride=8, target=ARRAY_BUFFER)
+            attributes["NORMAL"] = self.accessor(view, SHORT, len(mesh.normals), "VEC3", normalized=True)
             self.require("KHR_mesh_quantization")
         if mesh.uvs and (self.all_uvs or "Texture" in json.dumps(self.doc["materials"][material])):
-            attributes["TEXCOORD_0"] = self.append("accessors", {
-                "bufferView": self.view(pack("f", [round_float(c) for uv in mesh.uvs for c in uv]),
-                                        target=ARRAY_BUFFER),
-                "componentType": FLOAT, "count": len(mesh.uvs), "type": "VEC2"})
+            attributes["TEXCOORD_0"] = self.floats([c for uv in mesh.uvs for c in uv], "VEC2", ARRAY_BUFFER)
         small = len(mesh.positions) <= 65535
         indices = [i for triangle in mesh.triangles for i in triangle]
-        index = self.append("accessors", {
-            "bufferView": self.view(pack("H" if small else "I", indices), target=ELEMENT_ARRAY_BUFFER),
-            "componentType": UNSIGNED_SHORT if small else UNSIGNED_INT, "count": len(indices), "type": "SCALAR"})
+        view = self.view(pack("H" if small else "I", indices), target=ELEMENT_ARRAY_BUFFER)
+        index = self.accessor(view, UNSIGNED_SHORT if small else UNSIGNED_INT, len(indices), "SCALAR")
         primitive = {"attributes": attributes, "indices": index}
         # The mesh is kept so that its id is not given to another one.
         self.geometries[id(mesh)] = (primitive, mesh)
@@ -227,6 +228,14 @@ def slot(texture):
     if len(texture) > 2:
         transform["rotation"] = round_float(math.radians(texture[2]))
     return {"index": texture[0], "extensions": {"KHR_texture_transform": transform}}
+
+
+def glass(ior, thickness, colour=None, distance=None):
+    """Extensions of a material that refracts, and absorbs all but `colour` within `distance`."""
+    volume = {"thicknessFactor": thickness}
+    if colour:
+        volume.update(attenuationColor=list(colour), attenuationDistance=distance)
+    return {"transmission": {"transmissionFactor": 1.0}, "ior": {"ior": ior}, "volume": volume}
 
 
 def pack(code, values):

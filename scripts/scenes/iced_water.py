@@ -1,7 +1,7 @@
 """Ice in a glass of water: bodies that overlap. The water reaches into the glass, whose priority is higher; the ice floats in
 the water and contains bubbles of air, which are smaller than the ice and need no priority."""
 
-from glb import Glb
+from glb import Glb, glass
 from shapes import lathe, merge, quad, rounded_box, sphere
 
 # Radii and heights of the inside of the glass.
@@ -10,12 +10,8 @@ SURFACE = 0.98
 PIECES = 144
 
 
-def glassy(glb, name, ior, colour=None, distance=None):
-    volume = {"thicknessFactor": 0.1}
-    if colour:
-        volume.update({"attenuationColor": list(colour), "attenuationDistance": distance})
-    return glb.material(name, (1.0, 1.0, 1.0), roughness=0.0, extensions={
-        "transmission": {"transmissionFactor": 1.0}, "ior": {"ior": ior}, "volume": volume})
+def glassy(glb, name, ior, *absorption):
+    return glb.material(name, (1.0, 1.0, 1.0), roughness=0.0, extensions=glass(ior, 0.1, *absorption))
 
 
 def tumbler():

@@ -1,6 +1,7 @@
 """Textures and materials of the living room."""
 
 import pictures
+from glb import glass
 
 # The light of the lamps.
 WARM = (1.0, 0.56, 0.24)
@@ -23,11 +24,6 @@ def textures(glb):
     }
     clamped = ("painting", "leaf", "sky", "lantern", "rug")
     return {name: glb.texture(name, image, "clamp" if name in clamped else None) for name, image in images.items()}
-
-
-def glass(tint, distance, thickness, ior=1.5):
-    return {"transmission": {"transmissionFactor": 1.0}, "ior": {"ior": ior},
-            "volume": {"thicknessFactor": thickness, "attenuationColor": list(tint), "attenuationDistance": distance}}
 
 
 def materials(glb):
@@ -78,10 +74,10 @@ def materials(glb):
         "satin brass": metal("satin brass", (0.87, 0.65, 0.33), 0.34),
         "gold": metal("gold", (1.0, 0.766, 0.336), 0.07),
         "copper": metal("hammered copper", (0.955, 0.60, 0.47), 0.30),
-        "glass": new("glass", (1.0, 1.0, 1.0), roughness=0.0, extensions=glass((0.80, 0.93, 0.88), 0.06, 0.004)),
+        "glass": new("glass", (1.0, 1.0, 1.0), roughness=0.0, extensions=glass(1.5, 0.004, (0.80, 0.93, 0.88), 0.06)),
         "vase glass": new("smoked glass", (1.0, 1.0, 1.0), roughness=0.0,
-                          extensions=glass((0.28, 0.52, 0.50), 0.018, 0.005)),
-        "wine": new("cordial", (1.0, 1.0, 1.0), roughness=0.0, extensions=glass((0.86, 0.36, 0.05), 0.035, 0.1, 1.35)),
+                          extensions=glass(1.5, 0.005, (0.28, 0.52, 0.50), 0.018)),
+        "wine": new("cordial", (1.0, 1.0, 1.0), roughness=0.0, extensions=glass(1.35, 0.1, (0.86, 0.36, 0.05), 0.035)),
         "painting": new("painting", (1.0, 1.0, 1.0), roughness=0.5, base_texture=image["painting"]),
         "leaf": new("leaf", (1.0, 1.0, 1.0), roughness=0.36, base_texture=image["leaf"], mask=0.5, double_sided=True),
         "stalk": paint("stalk", (0.12, 0.22, 0.06), 0.5),

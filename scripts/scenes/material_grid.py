@@ -3,7 +3,7 @@
 import math
 
 import pictures
-from glb import Glb
+from glb import Glb, glass
 from shapes import quad, sphere
 
 RADIUS = 0.42
@@ -29,12 +29,8 @@ def materials(glb, image):
     def metal(name, colour, roughness, **more):
         return new(name, colour, metallic=1.0, roughness=roughness, **more)
 
-    def glass(name, roughness, tint=None, ior=1.5):
-        volume = {"thicknessFactor": 2 * RADIUS}
-        if tint:
-            volume.update(attenuationColor=list(tint), attenuationDistance=RADIUS)
-        return new(name, white, roughness=roughness, extensions={
-            "transmission": {"transmissionFactor": 1.0}, "ior": {"ior": ior}, "volume": volume})
+    def clear(name, roughness, tint=None, ior=1.5):
+        return new(name, white, roughness=roughness, extensions=glass(ior, 2 * RADIUS, tint, RADIUS))
 
     def thin(name, colour, roughness):
         return new(name, colour, roughness=roughness, double_sided=True,
@@ -50,7 +46,7 @@ def materials(glb, image):
         (metal("gold mirror", (1.0, 0.766, 0.336), 0.05), metal("rough copper", (0.955, 0.60, 0.47), 0.5),
          metal("woven silver", (0.95, 0.93, 0.88), 0.3, normal_texture=(image["weave"], 2.0)),
          coated("red lacquer", (0.50, 0.03, 0.02), 0.5, 0.03), coated("hazy blue", (0.05, 0.12, 0.45), 0.6, 0.35)),
-        (glass("green glass", 0.0, (0.35, 0.80, 0.45)), glass("frosted glass", 0.3), glass("water", 0.0, ior=1.33),
+        (clear("green glass", 0.0, (0.35, 0.80, 0.45)), clear("frosted glass", 0.3), clear("water", 0.0, ior=1.33),
          thin("bubble", (0.9, 0.95, 1.0), 0.0), thin("frosted bubble", (1.0, 0.9, 0.8), 0.4)),
         (new("velvet", (0.30, 0.02, 0.05), roughness=0.9, extensions={
             "sheen": {"sheenColorFactor": [0.9, 0.4, 0.4], "sheenRoughnessFactor": 0.4}}),

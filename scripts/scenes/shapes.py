@@ -91,6 +91,14 @@ def polygon(*corners):
     return Mesh([tuple(c) for c in corners], [(0, k, k + 1) for k in range(1, len(corners) - 1)])
 
 
+def upright(low, height):
+    """A prism without normals on a level polygon, which is counter-clockwise as seen from above."""
+    high = [(x, y + height, z) for x, y, z in low]
+    ahead = [*range(1, len(low)), 0]
+    return merge(polygon(*high), polygon(*reversed(low)),
+                 *(polygon(low[k], low[n], high[n], high[k]) for k, n in enumerate(ahead)))
+
+
 def cells(columns, rows, first=0):
     """The corners of each cell of a grid, counter-clockwise. The vertices begin at `first`, row by row."""
     for j in range(rows):

@@ -4,7 +4,7 @@ import math
 
 import furniture
 from glb import Glb
-from shapes import merge, polygon, quad, rounded_box, sphere
+from shapes import merge, polygon, quad, rounded_box, sphere, upright
 from teapot import tessellate
 
 LENGTH, WIDTH, EAVES, RIDGE = 200.0, 84.0, 17.0, 33.0
@@ -92,10 +92,7 @@ def box(size, at=(0, 0, 0)):
     """A plain box of 12 triangles whose underside is at `at`."""
     half_x, height, half_z = size[0] / 2, size[1], size[2] / 2
     x, y, z = at
-    low = [(x + sx * half_x, y, z + sz * half_z) for sx, sz in ((-1, 1), (1, 1), (1, -1), (-1, -1))]
-    high = [(px, y + height, pz) for px, _, pz in low]
-    return merge(polygon(*high), polygon(*low[::-1]),
-                 *(polygon(low[k], low[(k + 1) % 4], high[(k + 1) % 4], high[k]) for k in range(4)))
+    return upright([(x + sx * half_x, y, z + sz * half_z) for sx, sz in ((-1, 1), (1, 1), (1, -1), (-1, -1))], height)
 
 
 def lamps(glb, paint):

@@ -4,8 +4,8 @@ an environment in the file, and a hidden node."""
 import math
 
 import pictures
-from glb import Glb
-from shapes import lathe, merge, polygon, quad, rounded_box, sphere, surface
+from glb import Glb, glass
+from shapes import lathe, merge, quad, rounded_box, sphere, surface, upright
 
 SKY = {"zenith": (0.35, 0.45, 0.65), "horizon": (0.75, 0.72, 0.68), "ground": (0.10, 0.09, 0.08)}
 WINDOW = (6.0, 5.6, 5.0)
@@ -62,10 +62,7 @@ def films(glb):
 def prism(half, height):
     """A triangular prism that stands on its end."""
     corners = [(half * math.sin(2 * math.pi * k / 3), half * math.cos(2 * math.pi * k / 3)) for k in range(3)]
-    low = [(x, 0.0, z) for x, z in corners]
-    high = [(x, height, z) for x, z in corners]
-    sides = [polygon(low[k], low[(k + 1) % 3], high[(k + 1) % 3], high[k]) for k in range(3)]
-    return merge(polygon(*high), polygon(*reversed(low)), *sides)
+    return upright([(x, 0.0, z) for x, z in corners], height)
 
 
 def srgb(value):
@@ -99,8 +96,7 @@ def materials(glb):
                             "iridescenceThicknessMaximum": 750.0,
                             "iridescenceThicknessTexture": {"index": films(glb)}}}),
         "prism": new("prism", (1.0, 1.0, 1.0), roughness=0.0, extensions={
-            "transmission": {"transmissionFactor": 1.0}, "ior": {"ior": 1.62}, "dispersion": {"dispersion": 1.5},
-            "volume": {"thicknessFactor": 0.3}}),
+            **glass(1.62, 0.3), "dispersion": {"dispersion": 1.5}}),
         "beetle": new("beetle", (0.05, 0.12, 0.08), metallic=0.6, roughness=0.25, extensions={
             "iridescence": {"iridescenceFactor": 1.0, "iridescenceIor": 1.6, "iridescenceThicknessMaximum": 420.0}}),
         "wood": new("wood", (0.32, 0.19, 0.10), roughness=0.45),

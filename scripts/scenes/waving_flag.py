@@ -2,7 +2,6 @@
 
 import math
 
-from animations import floats
 from shapes import Mesh, part_of_grid, surface
 
 COLUMNS, ROWS, CHECK = 24, 16, 4
@@ -55,9 +54,9 @@ def primitive(glb, material, odd):
     for target in range(2 * len(WAVES)):
         crests = [crest(target, u, v) for u, v in places]
         targets.append({
-            "POSITION": floats(glb, [c for h in crests for c in (0.0, 0.0, h)], "VEC3",
-                               min=[0.0, 0.0, round(min(crests), 6)], max=[0.0, 0.0, round(max(crests), 6)]),
-            "NORMAL": floats(glb, [c for u, v in places for c in slope(target, u, v)], "VEC3")})
+            "POSITION": glb.floats([c for h in crests for c in (0.0, 0.0, h)], "VEC3",
+                                   min=[0.0, 0.0, round(min(crests), 6)], max=[0.0, 0.0, round(max(crests), 6)]),
+            "NORMAL": glb.floats([c for u, v in places for c in slope(target, u, v)], "VEC3")})
     return {**glb.geometry(mesh, material), "material": material, "targets": targets}
 
 
