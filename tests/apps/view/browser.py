@@ -1,4 +1,4 @@
-"""Headless Chromium by Selenium, for checks of pages. Needs the system's Python (/usr/bin/python3), as python3-selenium does."""
+"""Headless Chromium by Selenium. Needs the system's Python (/usr/bin/python3), as python3-selenium does."""
 
 import os
 import shutil
@@ -16,8 +16,8 @@ def is_there():
     return bool(webdriver and CHROMIUM and DRIVER)
 
 
-def start(logs=("browser",), downloads=None):
-    """A window of 1400 by 900 pixels. `logs`: kinds that are kept for get_log(); `downloads`: the folder for saved files."""
+def start(downloads):
+    """A window of 1400 by 900 pixels, which keeps its messages for get_log(). `downloads`: the folder for saved files."""
     options = webdriver.ChromeOptions()
     options.binary_location = CHROMIUM
     for flag in ("--headless=new", "--disable-gpu", "--disable-dev-shm-usage", "--force-color-profile=srgb", "--hide-scrollbars",
@@ -25,13 +25,12 @@ def start(logs=("browser",), downloads=None):
         options.add_argument(flag)
     if os.geteuid() == 0:
         options.add_argument("--no-sandbox")
-    if downloads:
-        options.add_experimental_option("prefs", {"download.default_directory": downloads})
-    options.set_capability("goog:loggingPrefs", {kind: "ALL" for kind in logs})
+    options.add_experimental_option("prefs", {"download.default_directory": downloads})
+    options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
     return webdriver.Chrome(service=webdriver.chrome.service.Service(DRIVER), options=options)
 
 
-def resize(driver, width, height, scale=1):
+def resize(driver, width, height, scale):
     """`scale`: physical pixels for each. Narrow windows are those of a phone."""
     driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride",
                            {"width": width, "height": height, "deviceScaleFactor": scale, "mobile": width < 500})
