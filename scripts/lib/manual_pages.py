@@ -63,6 +63,11 @@ def _part_lists(text):
     return "\n".join(lines)
 
 
+def target_of(page, path):
+    """The path in the repository of a link's path."""
+    return posixpath.normpath(posixpath.join(posixpath.dirname(page), path)) if path else page
+
+
 def line_of(text, place):
     return text.count("\n", 0, place) + 1
 
@@ -90,7 +95,7 @@ class Pages:
                 self.external.setdefault(link[0], place)
                 continue
             path, _, anchor = link[0].partition("#")
-            target = posixpath.normpath(posixpath.join(posixpath.dirname(name), path)) if path else name
+            target = target_of(name, path)
             if target.startswith("../") or not (self.root / target).exists():
                 self.dead.append(f"{place}: '{link[0]}' is not there")
                 continue
@@ -103,7 +108,7 @@ class Pages:
         for name, text in self.texts.items():
             for link in links(text):
                 path, _, anchor = link[0].partition("#")
-                target = posixpath.normpath(posixpath.join(posixpath.dirname(name), path)) if path else name
+                target = target_of(name, path)
                 if anchor and target in known and anchor not in known[target]:
                     self.dead.append(f"{name}:{line_of(text, link.start())}: {target} has no heading '#{anchor}'")
 
@@ -112,7 +117,7 @@ class Pages:
         if is_external(link) or link.startswith("#"):
             return link
         path, hash_sign, anchor = link.partition("#")
-        target = posixpath.normpath(posixpath.join(posixpath.dirname(name), path))
+        target = target_of(name, path)
         if (self.root / target / "README.md").is_file():
             target += "/README.md"
         return posixpath.relpath(place_in_copy(target), posixpath.dirname(place_in_copy(name)) or ".") + hash_sign + anchor

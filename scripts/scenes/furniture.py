@@ -53,13 +53,18 @@ def splayed_legs(height, spread, lean_degrees, **sizes):
         lambda p: (p[0] - drift * p[1] / height, p[1], p[2])).turned("y", 45 + 90 * k) for k in range(4)))
 
 
-def fluted_drum(radius, height, flutes=36):
-    """A drum with half-round flutes."""
+def round_wall(columns, rows, height, radius):
+    """A wall around the y axis, with the radius `radius(angle, v)`."""
     def at(u, v):
         angle = 2 * math.pi * u
-        r = radius * (1 - 0.035 * abs(math.cos(flutes * angle / 2)) ** 2.2)
+        r = radius(angle, v)
         return r * math.sin(angle), height * v, r * math.cos(angle)
-    return surface(6 * flutes, 1, at, wrap=True)
+    return surface(columns, rows, at, wrap=True)
+
+
+def fluted_drum(radius, height, flutes=36):
+    """A drum with half-round flutes."""
+    return round_wall(6 * flutes, 1, height, lambda angle, v: radius * (1 - 0.035 * abs(math.cos(flutes * angle / 2)) ** 2.2))
 
 
 def disc(radius, thickness, edge, segments=72):
@@ -92,9 +97,7 @@ def table_lamp_base():
 
 def shade(bottom=0.165, top=0.105, height=0.21, segments=64):
     """An open lampshade: a cone of no thickness, its lower rim at y = 0."""
-    return surface(segments, 6, lambda u, v: (
-        (bottom + (top - bottom) * v) * math.sin(2 * math.pi * u), height * v,
-        (bottom + (top - bottom) * v) * math.cos(2 * math.pi * u)), wrap=True)
+    return round_wall(segments, 6, height, lambda angle, v: bottom + (top - bottom) * v)
 
 
 def ring(radius, thickness, segments=64):
@@ -105,14 +108,11 @@ def ring(radius, thickness, segments=64):
 
 def paper_lantern(ribs=20):
     """A tall lantern of paper over bamboo rings, its lower end at y = 0; the picture of its glow runs along v."""
-    height = 0.62
-
-    def at(u, v):
+    def radius(_angle, v):
         belly = 0.10 + 0.115 * math.sin(math.pi * (0.08 + 0.84 * v)) ** 0.7
-        r = belly * (1 - 0.030 * abs(math.cos(math.pi * ribs * v)) ** 3)
-        return r * math.sin(2 * math.pi * u), height * v, r * math.cos(2 * math.pi * u)
+        return belly * (1 - 0.030 * abs(math.cos(math.pi * ribs * v)) ** 3)
 
-    return surface(48, 4 * ribs, at, wrap=True)
+    return round_wall(48, 4 * ribs, 0.62, radius)
 
 
 def tripod(height, spread=0.24):

@@ -4,7 +4,7 @@ an environment in the file, and a hidden node."""
 import math
 
 import pictures
-from glb import Glb, glass
+from glb import Glb, cross, glass, unit
 from shapes import lathe, merge, quad, rounded_box, sphere, surface, upright
 
 SKY = {"zenith": (0.35, 0.45, 0.65), "horizon": (0.75, 0.72, 0.68), "ground": (0.10, 0.09, 0.08)}
@@ -38,14 +38,11 @@ def faces(glb, size=16):
         forward[axis] = float(sign)
         if axis == 1:
             up = [0.0, 0.0, float(-sign)]
-        right = [forward[1] * up[2] - forward[2] * up[1], forward[2] * up[0] - forward[0] * up[2],
-                 forward[0] * up[1] - forward[1] * up[0]]
+        right = cross(forward, up)
 
         def pixel(x, y, forward=forward, up=up, right=right):
             a, b = 2 * (x + 0.5) / size - 1, 1 - 2 * (y + 0.5) / size
-            d = [forward[k] + a * right[k] + b * up[k] for k in range(3)]
-            length = math.sqrt(sum(v * v for v in d))
-            color = radiance([v / length for v in d])
+            color = radiance(unit([forward[k] + a * right[k] + b * up[k] for k in range(3)]))
             divisor = min(1.0, math.floor(255 / max(*color, 1.0)) / 255)
             return (*(srgb(v * divisor) for v in color), divisor)
 
