@@ -114,6 +114,12 @@ std::array<int, 4> parse_region(const std::string& option, const std::string& te
   return region;
 }
 
+std::string trimmed(const std::string& text) {
+  constexpr const char* kSpaces = " \t\r";
+  const std::size_t begin = text.find_first_not_of(kSpaces);
+  return begin == std::string::npos ? "" : text.substr(begin, text.find_last_not_of(kSpaces) - begin + 1);
+}
+
 std::vector<std::string> split(std::string_view text, char separator) {
   std::vector<std::string> parts;
   while (true) {

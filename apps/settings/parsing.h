@@ -42,6 +42,8 @@ std::array<int, 2> parse_size(const std::string& option, const std::string& text
 /// "x0,y0,x1,y1", with x0 < x1 and y0 < y1.
 std::array<int, 4> parse_region(const std::string& option, const std::string& text);
 
+/// Without spaces at both ends.
+std::string trimmed(const std::string& text);
 /// The parts between the separators: one more than there are separators.
 std::vector<std::string> split(std::string_view text, char separator);
 /// "a,b,c". Empty words are refused.

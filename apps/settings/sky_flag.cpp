@@ -23,12 +23,6 @@ struct Part {
   std::vector<std::string> values;
 };
 
-std::string trimmed(const std::string& text) {
-  const std::size_t begin = text.find_first_not_of(' ');
-  if (begin == std::string::npos) return "";
-  return text.substr(begin, text.find_last_not_of(' ') - begin + 1);
-}
-
 /// "a=1,2, b=3" are two parts: a word without '=' belongs to the part before it.
 std::vector<Part> parts_of(const std::string& option, const std::string& text) {
   std::vector<Part> parts;

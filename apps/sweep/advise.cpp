@@ -19,28 +19,14 @@ double seconds_of(const MeasuredRun& run) {
   return run.mean("seconds", "total")->value;
 }
 
-/// "path", or "path, max-depth 2". Where a scene has several references of a kind, the text has the axes that
-/// all of `group` share and no others have.
-std::string reference_text(const std::vector<MeasuredRun>& group, const std::vector<MeasuredRun>& all) {
-  const MeasuredRun& first = group.front();
-  std::vector<const MeasuredRun*> others;
-  for (const MeasuredRun& run : all) {
-    if (same_cells(run, first, {"scene", "reference"}) && !same_cells(run, first, {"reference_id"}))
-      others.push_back(&run);
-  }
-  std::string text = first.word("reference");
-  if (others.empty()) return text;
-  const std::string kind = text;
-  for (const auto& [axis, value] : first.cell().at("axes").items()) {
-    const auto has = [&the_axis = axis, &the_value = value](const MeasuredRun& run) {
-      return run.cell().at("axes").value(the_axis, ordered_json()) == the_value;
-    };
-    const bool of_all = std::all_of(group.begin(), group.end(), has);
-    if (of_all &&
-        std::none_of(others.begin(), others.end(), [&](const MeasuredRun* run) { return has(*run); }))
-      text += fmt::format(", {} {}", axis, value.get<std::string>());
-  }
-  return text == kind ? fmt::format("{}, reference {}", kind, first.word("reference_id")) : text;
+/// "path", or where a scene has several references of a kind "path, reference ID". The names of their series
+/// tell what differs.
+std::string reference_text(const MeasuredRun& run, const std::vector<MeasuredRun>& all) {
+  const std::string kind = run.word("reference");
+  const bool several = std::any_of(all.begin(), all.end(), [&](const MeasuredRun& other) {
+    return same_cells(other, run, {"scene", "reference"}) && !same_cells(other, run, {"reference_id"});
+  });
+  return several ? fmt::format("{}, reference {}", kind, run.word("reference_id")) : kind;
 }
 
 std::string limits_text(const AdviceLimits& limits) {
@@ -104,7 +90,8 @@ AdviceReport give_advice(const ordered_json& results, const AdviceLimits& limits
     const std::vector<MeasuredRun> group(rest.begin(), others);
     rest.erase(rest.begin(), others);
     const Advice advice = choose(group, limits);
-    const std::string name = fmt::format("{} ({})", group.front().word("scene"), reference_text(group, all));
+    const std::string name =
+        fmt::format("{} ({})", group.front().word("scene"), reference_text(group.front(), all));
     if (!advice.met) unmet.push_back(name);
     text += fmt::format("{}: {}{}\n  {}\n", name,
                         advice.met ? "" : fmt::format("none of {} met it; the nearest is ", group.size()),

@@ -72,8 +72,8 @@ void add_errors(ordered_json& json, const CellErrors& e) {
 
 /// The keys that only a measured picture has.
 constexpr const char* kMeasured[] = {
-    "seconds", "train_ms_per_step", "train_step_ms", "query_ms_per_2m", "memory_bytes", "loss",
-    "errors",  "flip_percentiles",  "picture",       "error_map"};
+    "seconds", "train_ms_per_step", "train_step_ms", "query_ms_per_2m", "memory_bytes",   "loss",
+    "errors",  "flip_percentiles",  "picture",       "error_map",       "estimated_error"};
 
 /// Options whose value the run may choose.
 constexpr const char* kFoundOptions[] = {"isa",          "filter-width", "ao-distance", "direction-input",
@@ -127,12 +127,10 @@ bool is_whole(const ordered_json& record) {
   for (const char* key : {"version", "cpu", "isa"}) {
     if (!record.contains(key) || !record[key].is_string()) return false;
   }
-  for (const char* key : {"train_ms_per_step", "train_step_ms", "query_ms_per_2m", "loss"}) {
+  for (const char* key :
+       {"train_ms_per_step", "train_step_ms", "query_ms_per_2m", "loss", "estimated_error"}) {
     if (!record[key].is_null() && !record[key].is_number()) return false;
   }
-  // Cells of earlier versions have none.
-  const auto estimated = record.find("estimated_error");
-  if (estimated != record.end() && !estimated->is_null() && !estimated->is_number()) return false;
   for (const char* key : {"memory_bytes", "flip_percentiles"}) {
     if (!record[key].is_null() && !holds_numbers(record[key])) return false;
   }
@@ -190,7 +188,6 @@ ordered_json failed_record(const CellPlace& place, const std::string& error) {
   json["error"] = error;
   add_origin(json);
   for (const char* key : kMeasured) json[key] = nullptr;
-  json["estimated_error"] = nullptr;
   return json;
 }
 

@@ -13,9 +13,7 @@ namespace gatelight::apps {
 
 /// A part of the work: a run or a reference.
 struct SweepTask {
-  /// Time is proportional to work among tasks of one kind. Kinds are ordered from narrow to wide; the wide
-  /// ones give a first estimate.
-  std::vector<std::string> kinds;
+  std::string kind;  ///< time is proportional to work among tasks of one kind
   double work = 1.0;
 };
 
@@ -28,7 +26,8 @@ class SweepClock {
   void finish(double seconds);
 
   /// The remaining seconds. `elapsed` and `fraction` belong to the current task; fraction > 0 is enough to
-  /// estimate its rest. Returns nothing while a task is left without a finished task of any of its kinds.
+  /// estimate its rest. A kind without a finished task is as quick as those that have one. Returns nothing
+  /// where there are no tasks, or none is finished.
   std::optional<double> left(double elapsed, double fraction) const;
 
  private:
@@ -41,14 +40,12 @@ class SweepClock {
 
   std::vector<SweepTask> tasks_;
   std::size_t done_ = 0;
-  std::map<std::string, Sum> sums_;  ///< of the finished tasks, by kind
+  Sum finished_;
+  std::map<std::string, Sum> finished_of_kind_;
 };
 
-SweepTask run_task(const PlannedScene& scene, const PlannedSeries& series, const std::vector<int>& points);
+SweepTask run_task(const PlannedSeries& series, const std::vector<int>& points);
 /// The task of a reference with these options; spp: of both halves together.
-SweepTask reference_task(const PlannedScene& scene, const renderer::RenderOptions& cell, ReferenceKind kind,
-                         int spp);
-/// All tasks of a scene, before it is known which are done.
-std::vector<SweepTask> all_tasks(const PlannedScene& scene, const SweepPlan& plan, int reference_spp);
+SweepTask reference_task(const renderer::RenderOptions& cell, ReferenceKind kind, int spp);
 
 }  // namespace gatelight::apps

@@ -17,16 +17,10 @@ renderer::View view_of(const scene::Scene& scene, const renderer::RenderOptions&
 /// Every option that decides picture, errors or time, including seed, steps and samples, but not the content
 /// of the scene's files. `view` is the chosen one.
 std::string deciding_text(const RenderSettings& settings, const renderer::View& view);
-/// The same before the scene is loaded, with the camera by its name.
-std::string deciding_text(const RenderSettings& settings);
 
-/// 16 hexadecimal digits for the scene and further texts.
+/// 16 hexadecimal digits for the scene and further texts. The ID of a cell is of deciding_text(), the key of
+/// its reference, machine_text() and the metrics.
 std::string identity_name(const renderer::SceneFingerprint& scene, std::initializer_list<std::string> texts);
-
-/// The ID of a cell: a digest of the scene, deciding_text(), the key of its reference, machine_text() and the
-/// metrics.
-std::string cell_name(const renderer::SceneFingerprint& scene, const std::string& deciding,
-                      const std::string& reference, const std::string& machine, bool hdr_flip);
 
 /// The name of the processor.
 std::string cpu_name();

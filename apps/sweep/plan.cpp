@@ -7,9 +7,9 @@
 #include <map>
 #include <set>
 
+#include "apps/reports/recipe.h"
 #include "apps/settings/complete_settings.h"
 #include "apps/settings/flags.h"
-#include "apps/sweep/identity.h"
 #include "apps/sweep/planned.h"
 #include "apps/sweep/references.h"
 #include "apps/terminal/errors.h"
@@ -83,12 +83,18 @@ std::optional<double> take_same_as_gate(FlagValues& flags) {
   return divisor;
 }
 
+/// Tells settings apart before the scene is loaded. Of a preset only its values count.
+std::string options_text(RenderSettings settings) {
+  settings.preset.reset();
+  return fmt::format("{}\nmemory-limit {}\n", dump_options(settings), settings.render.memory_limit_bytes);
+}
+
 /// The common flags with those of a run's own flags that decide its reference, so that both are compared
 /// with the same one.
 FlagValues flags_of_reference(FlagValues common, const FlagValues& own, ReferenceKind kind) {
   const auto reference = [kind](FlagValues flags) {
     take_same_as_gate(flags);
-    return deciding_text(reference_settings(settle(flags, true), kind, 1));
+    return options_text(reference_settings(settle(flags, true), kind, 1));
   };
   for (const auto& [flag, value] : own) {
     FlagValues more = common;
@@ -99,12 +105,10 @@ FlagValues flags_of_reference(FlagValues common, const FlagValues& own, Referenc
 }
 
 std::string series_key(const PlannedSeries& series) {
-  const RenderSettings settings = cell_settings(series, kNoScene, 0, 1);
-  std::string key = deciding_text(settings) + named_text(series);
-  if (series.memory) {
-    key += fmt::format("memory of gate / {}\n{}", series.memory->divisor,
-                       deciding_text(series.memory->settings));
-  }
+  std::string key = options_text(cell_settings(series, kNoScene, 0, 1)) + named_text(series);
+  if (series.memory)
+    key +=
+        fmt::format("memory of gate / {}\n{}", series.memory->divisor, options_text(series.memory->settings));
   return key;
 }
 
@@ -186,9 +190,7 @@ class Planner {
     const renderer::RenderOptions& o = series.settings.render;
     if (drop_flag(plain, "--preset")) set_flag(plain, "--size", fmt::format("{}x{}", o.width, o.height));
     set_flag(plain, "--integrator", series.reference == ReferenceKind::ao ? "ao" : "path");
-    const auto keep_plain = [&] {
-      keep(make_series({.row = "", .base = {}, .axes = block.axes, .train_steps = {}, .run = {}}, plain));
-    };
+    const auto keep_plain = [&] { keep(make_series({.axes = block.axes}, plain)); };
     keep_plain();
     if (!is_denoised(series)) return;
     set_flag(plain, kDenoiser, denoiser_of(series));

@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "apps/sweep/axes.h"
 #include "apps/sweep/flag_values.h"
 #include "apps/sweep/planned.h"
 
@@ -14,12 +13,12 @@ namespace gatelight::apps {
 
 /// Axes that are combined with each other. A sweep by flags has one block; presets have several.
 struct SweepBlock {
-  std::string row;  ///< name of its row in a table; empty: none
-  FlagValues base;  ///< flags of all its cells, except --seed, --train-steps and the --spp of integrators
-                    ///< without a cache
-  std::vector<SweepAxis> axes;  ///< --spp here is for integrators with a cache
-  std::vector<int> train_steps;
-  std::optional<FlagValues> run;  ///< a named run, `row` is its name: its own flags, over those of `base`
+  std::string row{};  ///< name of its row in a table; empty: none
+  FlagValues base{};  ///< flags of all its cells, except --seed, --train-steps and the --spp of integrators
+                      ///< without a cache
+  std::vector<SweepAxis> axes{};  ///< --spp here is for integrators with a cache
+  std::vector<int> train_steps{};
+  std::optional<FlagValues> run{};  ///< a named run, `row` is its name: its own flags, over those of `base`
 };
 
 struct SweepScene {

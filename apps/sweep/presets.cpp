@@ -37,13 +37,9 @@ FlagValues joined(FlagValues flags, const FlagValues& more) {
 /// Adds a block for each row, on top of a preset of `render`.
 void add_rows(std::vector<SweepBlock>& blocks, const char* preset, const std::vector<Row>& rows,
               const std::vector<int>& steps) {
-  for (const Row& row : rows) {
-    blocks.push_back({.row = row.name,
-                      .base = joined({{"--preset", preset}}, row.flags),
-                      .axes = {},
-                      .train_steps = steps,
-                      .run = {}});
-  }
+  for (const Row& row : rows)
+    blocks.push_back(
+        {.row = row.name, .base = joined({{"--preset", preset}}, row.flags), .train_steps = steps});
 }
 
 std::vector<SweepBlock> both(const std::vector<Row>& rows, const std::vector<int>& steps) {
@@ -113,8 +109,7 @@ std::vector<SweepBlock> extra() {
 std::vector<SweepBlock> finished() {
   std::vector<SweepBlock> blocks;
   for (const char* preset : {"preview", "standard", "final"})
-    blocks.push_back(
-        {.row = preset, .base = {}, .axes = {}, .train_steps = {}, .run = {{{"--preset", preset}}}});
+    blocks.push_back({.row = preset, .run = {{{"--preset", preset}}}});
   return blocks;
 }
 
@@ -144,13 +139,11 @@ const Preset kPresets[] = {
 }  // namespace
 
 std::vector<SweepBlock> default_rows() {
-  return {
-      {.row = "bare", .base = {{"--preset", "bare"}}, .axes = {}, .train_steps = kDefaultSteps, .run = {}},
-      {.row = "standard",
-       .base = {{"--preset", "standard"}},
-       .axes = {{"--spp", kStandardSpp}},
-       .train_steps = kStandardSteps,
-       .run = {}}};
+  return {{.row = "bare", .base = {{"--preset", "bare"}}, .train_steps = kDefaultSteps},
+          {.row = "standard",
+           .base = {{"--preset", "standard"}},
+           .axes = {{"--spp", kStandardSpp}},
+           .train_steps = kStandardSteps}};
 }
 
 std::vector<std::string_view> sweep_preset_names() {

@@ -192,6 +192,7 @@ RenderSettings reference_settings(const RenderSettings& cell, ReferenceKind kind
   settings.render.memory_limit_bytes = 0;
   settings.render.isa = RenderOptions().isa;  // changes only the last digits
   settings.image = {};
+  settings.exposure = 0.0f;
   return settings;
 }
 

@@ -36,6 +36,8 @@ struct Reference {
   std::optional<int> spp;
   std::optional<double> rel_mse_noise;  ///< rel_mse of the reference itself, from its noise
   std::optional<double> seconds;
+
+  bool is_made() const { return given || rel_mse_noise.has_value(); }
 };
 
 nlohmann::ordered_json reference_json(const Reference& reference, const std::string& folder);

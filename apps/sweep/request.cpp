@@ -9,7 +9,7 @@
 #include <set>
 
 #include "apps/settings/option_table.h"
-#include "apps/sweep/named_runs.h"
+#include "apps/sweep/flag_values.h"
 #include "apps/sweep/presets.h"
 #include "apps/sweep/references.h"
 #include "apps/terminal/errors.h"
@@ -83,7 +83,7 @@ std::vector<NamedAxis> read_axes(const SweepArguments& words) {
   std::vector<NamedAxis> axes;
   for (const auto& [flag, text] : words.axes) {
     const std::string name = flag.name + 2;
-    axes.push_back({name, {flag.varies, split_values(name, text, flag.values_are_lists)}});
+    axes.push_back({name, {flag.varies, split_values(name, text, flag.varies)}});
   }
   for (const std::string& text : words.vary) {
     SweepAxis axis = parse_vary(text);
@@ -213,17 +213,16 @@ bool wants_default_rows(const SweepArguments& words) {
 std::vector<SweepBlock> read_named_runs(const SweepArguments& words) {
   std::vector<NamedRun> runs;
   for (const std::string& file : words.plans) {
-    for (NamedRun& run : read_runs(file)) runs.push_back(std::move(run));
+    for (const NamedRun& run : read_runs(file)) runs.push_back(run);
   }
   for (const std::string& text : words.runs) runs.push_back(parse_run(text));
   std::vector<SweepBlock> blocks;
-  for (NamedRun& run : runs) {
+  for (const NamedRun& run : runs) {
     for (const auto& [flag, value] : run.flags) {
       if (contains(kOwnFlags, flag) || has_axis(flag) || (flag != "--seed" && is_base_flag(flag))) continue;
       throw BadOption({"run", flag, fmt::format("in '{}' decides no picture", run.name)});
     }
-    blocks.push_back(
-        {.row = run.name, .base = {}, .axes = {}, .train_steps = {}, .run = std::move(run.flags)});
+    blocks.push_back({.row = run.name, .run = run.flags});
   }
   return blocks;
 }
@@ -293,7 +292,7 @@ SweepRequest make_request(const SweepArguments& words) {
   if (wants_default_rows(words)) {
     request.blocks = default_rows();
   } else if (request.blocks.empty()) {
-    request.blocks.push_back({.row = "", .base = {}, .axes = {}, .train_steps = kDefaultSteps, .run = {}});
+    request.blocks.push_back({.train_steps = kDefaultSteps});
   }
   SweepArguments with_preset = words;
   with_preset.base = base;

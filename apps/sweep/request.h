@@ -16,15 +16,13 @@ struct AxisFlag {
   const char* varies;  ///< "--encoding"
   const char* help;
   const char* default_text = "";
-  bool values_are_lists = false;
 };
 inline constexpr AxisFlag kAxisFlags[] = {
     {"--integrators", "--integrator", "nrc, nao, path, ao", "nrc"},
     {"--encodings", "--encoding", "gate, hashgrid"},
     {"--features", "--features", "gate: numbers in a feature vector"},
     {"--resolution", "--resolution", "gate: uniform, paper, fixed:R"},
-    {"--stack", "--stack", "gate: resolutions of the levels; one stack, or several separated by ';'", "",
-     true},
+    {"--stack", "--stack", "gate: resolutions of the levels; one stack, or several separated by ';'"},
     {"--cache-memory", "--cache-memory",
      "In MiB; 0: no limit; same-as-gate: the hash grid takes as many bytes as GATE with the same flags, "
      "same-as-gate/2 half as many"},

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <set>
 
+#include "apps/job/finished_picture.h"
 #include "apps/reports/recipe.h"
 #include "apps/sweep/eta.h"
 #include "apps/sweep/gate_memory.h"
@@ -26,6 +27,20 @@ namespace {
 namespace fs = std::filesystem;
 using renderer::Picture;
 using renderer::RenderStatistics;
+
+/// Why the work fails, in a line; empty where it does not. Where an output cannot be written, others could
+/// not be written either, so that ends the sweep.
+template <class Work>
+std::string failure_of(const Work& work) {
+  try {
+    work();
+  } catch (const OutputError&) {
+    throw;
+  } catch (...) {
+    return one_line(describe_current_exception().message);
+  }
+  return "";
+}
 
 }  // namespace
 
@@ -65,24 +80,20 @@ bool SceneSweep::decide_memory() {
   for (std::size_t i = 0; i < series_.size(); ++i) {
     PlannedSeries& series = series_[i];
     if (!series.memory) continue;
+    // Building and scouting cannot be interrupted.
+    if (stop_signal() != 0) return false;
     progress_.phase(fmt::format("memory of {}", series.label));
-    try {
+    series_errors_[i] = failure_of([&] {
       const RenderSettings& gate = series.memory->settings;
       const std::string key =
           identity_name(fingerprint_of(gate), {"memory", deciding_text(gate, view_of(scene_, gate.render))});
-      // Building and scouting cannot be interrupted.
-      if (stop_signal() != 0) return false;
       const std::uint64_t bytes = gate_memory(in_folder("gate-memory.json"), key, scene_, gate.render);
       const auto wanted =
           static_cast<std::uint64_t>(std::max(1.0, static_cast<double>(bytes) / series.memory->divisor));
       series.settings.render.cache.memory_bytes = wanted;
       // With all digits, so that the command gives the same bytes.
       set_flag(series.flags, "--cache-memory", fmt::format("{}", static_cast<double>(wanted) / 1048576.0));
-    } catch (const OutputError&) {
-      throw;
-    } catch (...) {
-      series_errors_[i] = one_line(describe_current_exception().message);
-    }
+    });
   }
   return true;
 }
@@ -116,7 +127,7 @@ void SceneSweep::name_cells() {
     Reference reference = given ? *given : planned_reference(series);
     read_reference_numbers(reference);
     reference_keys_.push_back(reference.key);
-    references_.emplace(reference.key, reference);
+    references_.emplace(reference.key, KnownReference{reference, {}, {}});
     for (const std::uint32_t seed : plan_.seeds) {
       for (const int point : series.points) {
         const RenderSettings settings = cell_settings(series, planned_.file, seed, point);
@@ -124,7 +135,8 @@ void SceneSweep::name_cells() {
         const std::string deciding = deciding_text(settings, view) + named_text(series) +
                                      (series_errors_[i].empty() ? "" : series.label);
         Cell cell{.place = {planned_, series, seed, point,
-                            cell_name(fingerprint, deciding, reference.key, machine, settings_.hdr_flip),
+                            identity_name(fingerprint, {deciding, reference.key, machine,
+                                                        settings_.hdr_flip ? "hdr" : ""}),
                             reference.key},
                   .record = nullptr};
         if (auto record = read_done(cell.place)) cell.record = std::move(*record);
@@ -136,7 +148,7 @@ void SceneSweep::name_cells() {
 
 bool SceneSweep::completes_pair(const CellPlace& place) const {
   const bool second = (place.seed - plan_.seeds.front()) % 2 == 1;
-  return settings_.keep_exr && second && references_.at(place.reference_key).halves.size() == 2;
+  return settings_.keep_exr && second && references_.at(place.reference_key).reference.halves.size() == 2;
 }
 
 std::optional<nlohmann::ordered_json> SceneSweep::read_done(const CellPlace& place) const {
@@ -170,15 +182,12 @@ std::vector<SweepTask> SceneSweep::tasks() const {
   std::set<std::string> referred;
   for (const Run& run : missing_runs()) {
     const PlannedSeries& series = series_[run.series];
-    const Reference& reference = reference_of(run.series);
-    const bool made = reference.given || reference.rel_mse_noise;
-    if (!made && referred.insert(reference.key).second) {
-      tasks.push_back(
-          reference_task(planned_, series.settings.render, series.reference, settings_.reference_spp));
-    }
+    const Reference& reference = reference_of(run.series).reference;
+    if (!reference.is_made() && referred.insert(reference.key).second)
+      tasks.push_back(reference_task(series.settings.render, series.reference, settings_.reference_spp));
     std::vector<int> points;
     for (const std::size_t cell : run.missing) points.push_back(cells_[cell].place.point);
-    tasks.push_back(run_task(planned_, series, points));
+    tasks.push_back(run_task(series, points));
   }
   return tasks;
 }
@@ -195,26 +204,19 @@ bool SceneSweep::run(const std::function<void()>& after_run) {
 }
 
 const Picture* SceneSweep::reference_picture(std::size_t series) {
-  Reference& reference = reference_of(series);
-  const auto found = reference_pictures_.find(reference.key);
-  if (found != reference_pictures_.end()) return &found->second;
-  if (reference_errors_.contains(reference.key)) return nullptr;
-  const bool made = reference.given || reference.rel_mse_noise;
-  const std::string kind = renderer::name_of(kReferenceKinds, reference.kind);
+  KnownReference& known = references_.at(reference_keys_[series]);
+  if (known.picture) return &*known.picture;
+  if (!known.error.empty()) return nullptr;
+  const bool made = known.reference.is_made();
+  const std::string kind = renderer::name_of(kReferenceKinds, known.reference.kind);
   if (!made) progress_.begin(fmt::format("{} reference {}", planned_.name, kind), true);
-  try {
-    std::optional<Picture> picture = make_reference(reference, scene_, series_[series].settings, callbacks());
-    if (!picture) return nullptr;
-    if (!made) progress_.end();
-    return &reference_pictures_.emplace(reference.key, std::move(*picture)).first->second;
-  } catch (const OutputError&) {
-    throw;
-  } catch (...) {
-    reference_errors_[reference.key] =
-        fmt::format("the reference could not be made: {}", one_line(describe_current_exception().message));
-    if (!made) progress_.end();
-    return nullptr;
-  }
+  const std::string failure = failure_of([&] {
+    known.picture = make_reference(known.reference, scene_, series_[series].settings, callbacks());
+  });
+  if (!failure.empty()) known.error = fmt::format("the reference could not be made: {}", failure);
+  const bool stopped = !known.picture && failure.empty();
+  if (!made && !stopped) progress_.end();
+  return known.picture ? &*known.picture : nullptr;
 }
 
 void SceneSweep::take_done(Run& run) {
@@ -228,8 +230,8 @@ void SceneSweep::take_done(Run& run) {
 
 bool SceneSweep::make(Run run) {
   const PlannedSeries& series = series_[run.series];
-  const std::string& series_error = series_errors_[run.series];
-  const Picture* reference = series_error.empty() ? reference_picture(run.series) : nullptr;
+  std::string error = series_errors_[run.series];
+  const Picture* reference = error.empty() ? reference_picture(run.series) : nullptr;
   if (!reference && stop_signal() != 0) return false;
 
   progress_.begin(fmt::format("{}  {}  seed {}", planned_.name, series.label, plan_.seeds[run.seed]), false);
@@ -237,19 +239,11 @@ bool SceneSweep::make(Run run) {
   take_done(run);
   std::size_t next = 0;  // index into run.missing
   bool finished = true;
-  if (!reference) {
-    fail(run.missing,
-         series_error.empty() ? reference_errors_.at(reference_keys_[run.series]) : series_error);
-  } else if (!run.missing.empty()) {
-    try {
-      finished = render(run, *reference, next);
-    } catch (const OutputError&) {
-      throw;
-    } catch (...) {
-      fail({run.missing.begin() + static_cast<std::ptrdiff_t>(next), run.missing.end()},
-           one_line(describe_current_exception().message));
-    }
-  }
+  if (!reference && error.empty()) error = reference_of(run.series).error;
+  if (reference && !run.missing.empty())
+    error = failure_of([&] { finished = render(run, *reference, next); });
+  if (!error.empty())
+    fail({run.missing.begin() + static_cast<std::ptrdiff_t>(next), run.missing.end()}, error);
   if (finished) progress_.end();
   return finished;
 }
@@ -268,7 +262,8 @@ bool SceneSweep::render(const Run& run, const Picture& reference, std::size_t& n
   const auto finish = [&](int point, const Picture& picture, const RenderStatistics& statistics) {
     const auto index = static_cast<std::size_t>(point);
     Cell& cell = cells_[run.missing[index]];
-    if (finish_cell(cell, picture, statistics, reference, reference_of(run.series))) next = index + 1;
+    if (finish_cell(cell, picture, statistics, reference, reference_of(run.series).reference))
+      next = index + 1;
   };
   if (series.named) {
     // The choice depends on the view only, so all seeds have the same one.
@@ -276,7 +271,7 @@ bool SceneSweep::render(const Run& run, const Picture& reference, std::size_t& n
       renderer::use_integrator(series.settings.render, renderer.integrator());
     const Picture picture = renderer.render(callbacks());
     const RenderStatistics& statistics = renderer.statistics();
-    if (!statistics.cache.diverged.empty()) throw TrainingDiverged(statistics.cache.diverged);
+    require_good_end(statistics, false);
     if (!statistics.interrupted) finish(0, picture, statistics);
   } else {
     renderer.render_series(series.has_cache() ? renderer::Series{points, {}} : renderer::Series{{}, points},
@@ -343,9 +338,8 @@ SceneResults SceneSweep::results() const {
   SceneResults results;
   results.scene = {{"name", planned_.name}, {"file", planned_.file}};
   results.scene["references"] = nlohmann::ordered_json::array();
-  for (const auto& [key, reference] : references_) {
-    results.scene["references"].push_back(reference_json(reference, settings_.folder));
-  }
+  for (const auto& [key, known] : references_)
+    results.scene["references"].push_back(reference_json(known.reference, settings_.folder));
   for (const Cell& cell : cells_) {
     if (!cell.record.is_null()) results.cells.push_back(cell.record);
   }

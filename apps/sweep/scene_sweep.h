@@ -46,6 +46,11 @@ class SceneSweep {
     std::size_t seed = 0;
     std::vector<std::size_t> missing;  ///< cells
   };
+  struct KnownReference {
+    Reference reference;
+    std::optional<renderer::Picture> picture;
+    std::string error;  ///< why it cannot be made
+  };
 
   void load();
   const renderer::SceneFingerprint& fingerprint_of(const RenderSettings& settings);
@@ -54,8 +59,9 @@ class SceneSweep {
   void name_cells();
   Reference planned_reference(const PlannedSeries& series);
   std::vector<Run> missing_runs() const;
-  Reference& reference_of(std::size_t series) { return references_.at(reference_keys_[series]); }
-  const Reference& reference_of(std::size_t series) const { return references_.at(reference_keys_[series]); }
+  const KnownReference& reference_of(std::size_t series) const {
+    return references_.at(reference_keys_[series]);
+  }
 
   /// Whether the cell is the second one of a pair of seeds, and its bias is measured.
   bool completes_pair(const CellPlace& place) const;
@@ -88,11 +94,9 @@ class SceneSweep {
   std::map<std::string, renderer::SceneFingerprint> fingerprints_;  ///< by environment
   std::vector<PlannedSeries> series_;                               ///< with resolved memory
   std::vector<std::string> series_errors_;  ///< why a series cannot be made; empty where it can
-  std::map<std::string, Reference> references_;
+  std::map<std::string, KnownReference> references_;
   std::vector<std::string> reference_keys_;  ///< of each series
-  std::map<std::string, renderer::Picture> reference_pictures_;
-  std::map<std::string, std::string> reference_errors_;
-  std::vector<Cell> cells_;  ///< by series, seed and point
+  std::vector<Cell> cells_;                  ///< by series, seed and point
 };
 
 }  // namespace gatelight::apps

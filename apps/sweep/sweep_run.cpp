@@ -145,10 +145,6 @@ class SweepRun {
   /// Finds the cells of all scenes that are done, so that results are always complete. Returns false where a
   /// signal ended it.
   bool survey() {
-    for (std::size_t i = 0; i < plan_.scenes.size(); ++i) {
-      tasks_[i] = all_tasks(plan_.scenes[i], plan_, settings_.reference_spp);
-    }
-    plan_tasks(0);
     // The first scene comes last and stays open.
     for (std::size_t i = plan_.scenes.size(); i-- > 0;) {
       open_scene(i);

@@ -76,17 +76,10 @@ std::vector<std::string> found(const std::string& text, const std::string& patte
   return all;
 }
 
-/// A finished cell of the series with a cache.
-ordered_json done(const SweepPlan& plan, std::uint32_t seed, int steps, const std::string& id) {
-  return done_record({plan.scenes[0], plan.scenes[0].series[0], seed, steps, id, "ref"}, statistics(),
-                     errors(), true, 2.5f);
-}
-
 /// Two runs of two seeds: one cell is done, another one has failed, and of the second run one is missing.
 ordered_json results() {
-  const SweepPlan plan = small_plan();
   SceneResults scene;
-  scene.scene = {{"name", plan.scenes[0].name},
+  scene.scene = {{"name", small_plan().scenes[0].name},
                  {"file", "a.glb"},
                  {"references",
                   {{{"id", "ref"},
@@ -95,8 +88,7 @@ ordered_json results() {
                     {"file", "references/ref.exr"},
                     {"rel_mse_noise", 0.005},
                     {"seconds", 12.0}}}}};
-  scene.cells = {done(plan, 1, 4, "1"), done(plan, 1, 8, "2"),
-                 failed_record({plan.scenes[0], plan.scenes[0].series[0], 2, 4, "3", "ref"}, "it <broke>")};
+  scene.cells = {done(cached("1", 4)), done(cached("2")), failed_record(cached("3", 4, 2), "it <broke>")};
   scene.cells[0]["errors"]["flip"] = 0.123456789;
   return make_results({"gatelight", "sweep"}, {scene});
 }

@@ -1,11 +1,9 @@
 // Lists of values, and the arguments of a sweep.
 
-#include "apps/sweep/axes.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "apps/sweep/named_runs.h"
+#include "apps/sweep/flag_values.h"
 #include "apps/sweep/request.h"
 #include "apps/terminal/errors.h"
 #include "tests/support/messages.h"
@@ -28,8 +26,8 @@ ErrorParts refusal(Call call) {
 TEST(SweepAxes, CommasSeparateValuesUnlessThereAreSemicolons) {
   EXPECT_THAT(split_values("features", "2,4,8"), ElementsAre("2", "4", "8"));
   EXPECT_THAT(split_values("stack", "adaptive,1;adaptive"), ElementsAre("adaptive,1", "adaptive"));
-  EXPECT_THAT(split_values("stack", "adaptive,1", true), ElementsAre("adaptive,1"));
-  EXPECT_THAT(split_values("stack", "adaptive;1", true), ElementsAre("adaptive", "1"));
+  EXPECT_THAT(split_values("stack", "adaptive,1", "--stack"), ElementsAre("adaptive,1"));
+  EXPECT_THAT(split_values("stack", "adaptive;1", "--stack"), ElementsAre("adaptive", "1"));
   EXPECT_THAT(split_integers("spp", "16,1,4", {1, 100}), ElementsAre(1, 4, 16));
 }
 
@@ -104,29 +102,6 @@ TEST(SweepRuns, AreRefusedWithFlagsThatAreNotTheirs) {
   SweepArguments finished = words_for({{"--integrator", "path"}});
   finished.preset = "finished";
   expect_parts(refused(finished), {"integrator", "--integrator", "finished"});
-}
-
-TEST(SweepRequest, DefaultsAreABareCacheOfManyStepsAndFinishedPicturesOfManySizes) {
-  const SweepRequest request = make_request(words_for({{"--batch", "512"}}));
-  ASSERT_EQ(request.blocks.size(), 2u);
-  EXPECT_THAT(request.blocks[0].train_steps, ElementsAre(8, 16, 32, 64, 128, 256, 512, 1024));
-  EXPECT_THAT(request.blocks[0].base, ElementsAre(Pair("--preset", "bare"), Pair("--batch", "512")));
-  EXPECT_THAT(request.blocks[1].train_steps, ElementsAre(128, 512, 2048));
-  EXPECT_THAT(request.blocks[1].base, ElementsAre(Pair("--preset", "standard"), Pair("--batch", "512")));
-  ASSERT_EQ(request.blocks[1].axes.size(), 1u);
-  EXPECT_THAT(request.blocks[1].axes[0].values, ElementsAre("2", "7", "28"));
-  EXPECT_THAT(request.plain_spp, ElementsAre(1, 4, 16, 64));
-  EXPECT_TRUE(request.plain);
-  EXPECT_EQ(request.seeds, 1);
-  EXPECT_EQ(request.first_seed, 1u);
-}
-
-TEST(SweepRequest, WithAnAxisTheDefaultIsNrcFromFewToManySteps) {
-  const SweepRequest request = make_request(words_for({}, {"features=2,4"}));
-  ASSERT_EQ(request.blocks.size(), 1u);
-  EXPECT_THAT(request.blocks[0].train_steps, ElementsAre(8, 16, 32, 64, 128, 256, 512, 1024));
-  EXPECT_THAT(request.blocks[0].base, ElementsAre(Pair("--integrator", "nrc"), Pair("--spp", "4")));
-  EXPECT_TRUE(request.plain);
 }
 
 TEST(SweepRequest, APresetOfRenderSetsIntegratorAndSamples) {

@@ -23,16 +23,6 @@ double noise_of(const json& results, const std::string& id) {
   return 0.0;
 }
 
-TEST_F(SweepCells, TheReportContainsEveryPicture) {
-  ASSERT_EQ(run_gatelight(words("out", {"--seeds", "2"})).exit_code, 0);
-  const std::string report = read_file(folder / "out/report.html");
-  std::size_t shown = 0;
-  for (std::size_t at = 0; (at = report.find("src=\"data:image/jpeg", at)) != std::string::npos; ++at)
-    ++shown;
-  EXPECT_EQ(shown, 4u * 2u + 1u) << "pictures and FLIP maps of the first seed, and the reference";
-  EXPECT_THAT(report, ::testing::Not(HasSubstr("no picture")));
-}
-
 TEST_F(SweepCells, MeasuresEveryCellAgainstItsReference) {
   const Output output =
       run_gatelight_inside(words("out", {"--encodings", "gate,hashgrid", "--cache-memory", "same-as-gate",
@@ -65,6 +55,10 @@ TEST_F(SweepCells, MeasuresEveryCellAgainstItsReference) {
       EXPECT_EQ(renderer::read_image(folder / ("out/" + cell["picture"].get<std::string>())).width, 24);
       EXPECT_EQ(renderer::read_image(folder / ("out/" + cell["error_map"].get<std::string>())).width, 24);
     }
+    EXPECT_EQ(cell["options"]["isa"], cell["isa"]);
+    if (cell["reference"] != "path" || cell["encoding"] == "hashgrid") continue;
+    for (const auto& [option, value] : cell["options"].items())
+      EXPECT_TRUE(value != "auto" || option == "cluster" || option == "environment") << option;
   }
   // As near as the sizes of tables allow.
   for (const auto& [integrator, bytes] : parameters) {
@@ -79,6 +73,12 @@ TEST_F(SweepCells, MeasuresEveryCellAgainstItsReference) {
     EXPECT_TRUE(fs::exists(folder / ("out/" + reference["file"].get<std::string>())));
   }
   EXPECT_EQ(std::count(all["command"].begin(), all["command"].end(), "sweep"), 1);
+  const std::string report = read_file(folder / "out/report.html");
+  std::size_t shown = 0;
+  for (std::size_t at = 0; (at = report.find("src=\"data:image/jpeg", at)) != std::string::npos; ++at)
+    ++shown;
+  EXPECT_EQ(shown, 24u + 2u) << "pictures and FLIP maps of the first seed, and the references";
+  EXPECT_THAT(report, ::testing::Not(HasSubstr("no picture")));
 }
 
 TEST_F(SweepCells, ACellIsThePictureThatItsCommandMakes) {
@@ -90,19 +90,12 @@ TEST_F(SweepCells, ACellIsThePictureThatItsCommandMakes) {
 }
 
 /// A sweep by default measures the bare and the finished cache beside path tracing of both kinds.
-class SweepOfASceneAlone : public SweepTest {
- protected:
-  void SetUp() override { GATELIGHT_NEEDS_DENOISER(); }
-  Words all_rows(const std::string& out) const {
-    Words call = words(out, {});
-    const auto at = std::find(call.begin(), call.end(), "--denoiser");
-    call.erase(at, at + 2);
-    return call;
-  }
-};
-
-TEST_F(SweepOfASceneAlone, ContainsTheFinishedPicturesThatTheCommandsMake) {
-  const Output output = run_gatelight_inside(all_rows("out"));
+TEST_F(SweepCells, OfASceneAloneAreTheFinishedPicturesThatTheCommandsMake) {
+  GATELIGHT_NEEDS_DENOISER();
+  Words call = words("out", {});
+  const auto denoiser = std::find(call.begin(), call.end(), "--denoiser");
+  call.erase(denoiser, denoiser + 2);
+  const Output output = run_gatelight_inside(call);
   ASSERT_EQ(output.exit_code, 0) << output.err;
   const json all = results("out");
   std::map<std::string, int> cells;
@@ -128,38 +121,6 @@ TEST_F(SweepOfASceneAlone, ContainsTheFinishedPicturesThatTheCommandsMake) {
                                                {"nrc standard spp 7", 2},
                                                {"nrc standard spp 28", 2}}));
   EXPECT_THAT(read_file(folder / "out/results.csv"), HasSubstr("axis_denoiser"));
-}
-
-TEST_F(SweepOfASceneAlone, ResumesAfterAStopAndSharesCellsWithASmallerSweep) {
-  ASSERT_EQ(run_gatelight_inside(all_rows("straight")).exit_code, 0);
-  Process process(loud(all_rows("out")));
-  process.wait_for_error_text("\"event\":\"cell\"");
-  process.send(SIGTERM);
-  process.finish();
-  const auto before = times_of({folder / "out/cells"});
-  ASSERT_EQ(run_gatelight_inside(all_rows("out")).exit_code, 0);
-  const auto after = times_of({folder / "out/cells"});
-  for (const auto& [file, time] : before) EXPECT_EQ(after.at(file), time) << file;
-  EXPECT_EQ(after.size(), 12u);
-  EXPECT_EQ(without_seconds(results("out")), without_seconds(results("straight")));
-  // Path tracing as traced is the same cell in any sweep.
-  ASSERT_EQ(run_gatelight_inside(words("out", {})).exit_code, 0);
-  EXPECT_EQ(times_of({folder / "out/cells"}).size(), 12u + 2u);
-}
-
-TEST_F(SweepOfASceneAlone, AdviceIncludesFinishedPictures) {
-  Words call = all_rows("out");
-  ASSERT_EQ(run_gatelight_inside(call).exit_code, 0);
-  const json all = results("out");
-  const auto least = [](const json& a, const json& b) { return a["errors"]["flip"] < b["errors"]["flip"]; };
-  const json& best = *std::min_element(all["cells"].begin(), all["cells"].end(), least);
-  // Whichever is the best at 24x24, finished ones are among those that it is chosen from.
-  EXPECT_TRUE(std::any_of(all["cells"].begin(), all["cells"].end(),
-                          [](const json& cell) { return cell["options"]["denoiser"] == "oidn"; }));
-  const Output advice = run_gatelight_inside({"sweep", "-o", path("out"), "--advise", "--max-time", "1000"});
-  EXPECT_EQ(advice.exit_code, 0) << advice.err;
-  EXPECT_THAT(advice.out, AllOf(HasSubstr("cornell-box (path): " + best["series"].get<std::string>()),
-                                HasSubstr("\n  " + best["command"].get<std::string>() + "\n")));
 }
 
 TEST_F(SweepCells, AGivenReferenceIsCompared) {

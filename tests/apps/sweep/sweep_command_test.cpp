@@ -7,7 +7,6 @@ namespace {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
-using ::testing::Not;
 
 class SweepCommand : public SweepTest {};
 
@@ -87,12 +86,6 @@ TEST_F(SweepCommand, ResultsOfAnotherShapeAreRefused) {
     const Output output = run_gatelight_inside({"sweep", "-o", path("out"), "--advise", "--max-error", "1"});
     expect_failure(output, 2, {path("out/results.json")});
   }
-  // A cell is made again.
-  ASSERT_EQ(run_gatelight_inside(words("out", {})).exit_code, 0);
-  const json first = results("out");
-  folder.write("out/cells/" + first["cells"][0]["id"].get<std::string>() + ".json", R"({"status": null})");
-  ASSERT_EQ(run_gatelight_inside(words("out", {})).exit_code, 0);
-  EXPECT_EQ(without_seconds(results("out")), without_seconds(first));
 }
 
 TEST_F(SweepCommand, ProgressReportsCellsTasksAndTimeLeft) {
@@ -125,17 +118,6 @@ TEST_F(SweepCommand, AConfigurationFileMayHoldAxes) {
       {"sweep", cornell(), "-o", path("out"), "--config", file, "--dry-run", "--no-plain"});
   EXPECT_EQ(output.exit_code, 0) << output.err;
   EXPECT_THAT(output.out, AllOf(HasSubstr("nrc gate hidden 16"), HasSubstr("24x16"), HasSubstr("steps 2,4")));
-}
-
-TEST_F(SweepCommand, HelpNamesAxesOutputAndPresets) {
-  const Output output = run_gatelight_inside({"sweep", "--help"});
-  EXPECT_EQ(output.exit_code, 0);
-  for (const char* word : {"--train-steps LIST", "--encodings LIST", "--vary NAME=LIST", "--seeds N",
-                           "--reference FILE", "--advise", "--max-error FLIP", "--dry-run", "paper-table1",
-                           "results.csv", "report.html", "Examples:"}) {
-    EXPECT_THAT(output.out, HasSubstr(word));
-  }
-  EXPECT_THAT(output.out, Not(HasSubstr("--batch N")));
 }
 
 }  // namespace

@@ -9,8 +9,8 @@
 
 #include <set>
 
+#include "apps/reports/recipe.h"
 #include "apps/settings/flags.h"
-#include "apps/sweep/identity.h"
 #include "apps/sweep/planned.h"
 #include "apps/sweep/presets.h"
 #include "apps/sweep/request.h"
@@ -130,6 +130,7 @@ TEST(SweepPlan, TheDefaultIsTheBareAndTheFinishedCacheBesidePathTracingOfBothKin
     EXPECT_EQ(s.reference, ReferenceKind::path);
     EXPECT_EQ(s.settings.render.width, 64);
   }
+  EXPECT_THAT(all[0].points, ElementsAre(8, 16, 32, 64, 128, 256, 512, 1024));
   EXPECT_THAT(all[1].points, ElementsAre(1, 4, 16, 64));
   EXPECT_EQ(all[3].points, all[1].points);
   EXPECT_THAT(all[4].points, ElementsAre(128, 512, 2048));
@@ -147,7 +148,10 @@ TEST(SweepPlan, TheDefaultIsTheBareAndTheFinishedCacheBesidePathTracingOfBothKin
 }
 
 TEST(SweepPlan, FlagsThatContradictTheDefaultRowsReplaceThem) {
-  EXPECT_THAT(labels(plan_of_scene_alone({{"--query-at", "gather"}})), ElementsAre("nrc gate", "path"));
+  const SweepPlan gather = plan_of_scene_alone({{"--query-at", "gather"}});
+  ASSERT_THAT(labels(gather), ElementsAre("nrc gate", "path"));
+  EXPECT_THAT(gather.scenes[0].series[0].points, ElementsAre(8, 16, 32, 64, 128, 256, 512, 1024));
+  EXPECT_EQ(gather.scenes[0].series[0].settings.render.spp, 4);
   EXPECT_THAT(labels(plan_of_scene_alone({{"--view", "cache"}})), ElementsAre("nrc gate"));
   EXPECT_THAT(labels(plan_of_scene_alone({{"--denoiser", "oidn"}})),
               ElementsAre("nrc gate denoised", "path", "path denoised"));
@@ -237,27 +241,20 @@ TEST(SweepPlan, TheCommandReproducesTheCell) {
     }
     RenderSettings read = parse_render_arguments("a room.glb", words);
     complete_settings(read);
-    EXPECT_EQ(deciding_text(read), deciding_text(cell_settings(series, "a room.glb", 7, point)))
+    EXPECT_EQ(dump_options(read), dump_options(cell_settings(series, "a room.glb", 7, point)))
         << series.label;
   }
 }
 
-TEST(SweepPlan, SeriesWithDifferentFlagsHaveDifferentKeys) {
-  std::set<std::string> texts;
-  const SweepPlan plan = plan_of({}, {"features=2,4", "exposure=0,1", "threads=1,2", "camera=a,b",
-                                      "environment=none;1,1,1", "tonemap=none,filmic"});
-  for (const PlannedSeries& s : plan.scenes[0].series) texts.insert(deciding_text(s.settings));
-  EXPECT_EQ(texts.size(), 64u);
-}
-
-TEST(SweepPlan, SkiesAndAdjustedLightsArePartOfTheKey) {
-  std::set<std::string> texts;
-  const SweepPlan plan = plan_of({}, {"sky=none;sun=90,20;sun=90,40"});
-  for (const PlannedSeries& s : plan.scenes[0].series) texts.insert(deciding_text(s.settings));
-  EXPECT_EQ(texts.size(), 3u);
-  for (const char* lights : {"lamp=2", "lamp=off", "lamp=off;sun=1,2,3"})
-    texts.insert(deciding_text(plan_of({{"--lights", lights}}, {}).scenes[0].series[0].settings));
-  EXPECT_EQ(texts.size(), 6u);
+TEST(SweepPlan, SeriesThatDifferInAnyFlagAreNotMerged) {
+  const auto count = [](std::vector<std::string> vary) {
+    return plan_of({}, std::move(vary)).scenes[0].series.size();
+  };
+  EXPECT_EQ(count({"features=2,4", "exposure=0,1", "threads=1,2", "camera=a,b", "environment=none;1,1,1",
+                   "tonemap=none,filmic"}),
+            64u);
+  for (const char* vary : {"sky=none;sun=90,20;sun=90,40", "memory-limit=0,100,200", "fov=40,50,60"})
+    EXPECT_EQ(count({vary}), 3u) << vary;
   EXPECT_THROW(plan_of({}, {"lights=lamp=2;lamp=3"}), BadOption) << "a scene is loaded once";
 }
 

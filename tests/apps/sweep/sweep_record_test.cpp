@@ -19,9 +19,7 @@ using nlohmann::ordered_json;
 using tests::TemporaryFolder;
 
 TEST(SweepRecord, ContainsTheMeasurements) {
-  const SweepPlan plan = small_plan();
-  const CellPlace place{plan.scenes[0], plan.scenes[0].series[0], 1, 8, "0123", "ref"};
-  const ordered_json r = done_record(place, statistics(), errors(), true, 2.5f);
+  const ordered_json r = done(cached());
   EXPECT_EQ(r["status"], "done");
   EXPECT_EQ(r["seconds"]["total"], 3.75);
   EXPECT_EQ(r["train_ms_per_step"], 250.0);
@@ -45,12 +43,8 @@ TEST(SweepRecord, ContainsTheMeasurements) {
 }
 
 TEST(SweepRecord, APlainIntegratorHasNoCache) {
-  const SweepPlan plan = small_plan();
-  const PlannedSeries& series = plan.scenes[0].series[1];
-  ASSERT_EQ(series.label, "path");
-  renderer::RenderStatistics s = statistics();
-  const ordered_json r =
-      done_record({plan.scenes[0], series, 1, 16, "0123", "ref"}, s, errors(), false, 2.5f);
+  ASSERT_EQ(traced().series.label, "path");
+  const ordered_json r = done(traced(), false);
   for (const char* key : {"encoding", "train_steps", "train_ms_per_step", "query_ms_per_2m", "memory_bytes",
                           "loss", "picture", "error_map"}) {
     EXPECT_TRUE(r.at(key).is_null()) << key;
@@ -61,9 +55,8 @@ TEST(SweepRecord, APlainIntegratorHasNoCache) {
 }
 
 TEST(SweepRecord, TimeOfTheDenoiserCountsAndTheEstimatedErrorIsKept) {
-  const SweepPlan plan = small_plan();
-  PlannedSeries series = plan.scenes[0].series[0];
-  const CellPlace place{plan.scenes[0], series, 1, 8, "0123", "ref"};
+  PlannedSeries series = cached().series;
+  const CellPlace place{cached().scene, series, 1, 8, "0123", "ref"};
   renderer::RenderStatistics s = statistics();
   EXPECT_TRUE(done_record(place, s, errors(), true, 2.5f)["seconds"]["denoise"].is_null());
   EXPECT_TRUE(done_record(place, s, errors(), true, 2.5f)["estimated_error"].is_null());
@@ -107,9 +100,8 @@ TEST(SweepRecord, OfANamedRunKeepsWhatTheRunHasChosen) {
 }
 
 TEST(SweepRecord, NamesTheMachineTheVersionAndTheChosenOptions) {
-  const SweepPlan plan = small_plan();
-  const CellPlace place{plan.scenes[0], plan.scenes[0].series[0], 1, 8, "0123", "ref"};
-  const ordered_json r = done_record(place, statistics(), errors(), true, 2.5f);
+  const CellPlace place = cached();
+  const ordered_json r = done(place);
   EXPECT_EQ(r["schema"], kSweepSchema);
   EXPECT_EQ(r["version"], version());
   EXPECT_EQ(r["cpu"], cpu_name());
@@ -123,8 +115,7 @@ TEST(SweepRecord, NamesTheMachineTheVersionAndTheChosenOptions) {
   EXPECT_EQ(r["options"]["isa"], "avx2");
   EXPECT_EQ(r["options"]["filter-width"], 3.0);
   EXPECT_FALSE(r["options"].contains("ao-distance")) << "of other light";
-  const ordered_json plain = done_record({plan.scenes[0], plan.scenes[0].series[1], 1, 16, "0123", "ref"},
-                                         statistics(), errors(), true, 2.5f);
+  const ordered_json plain = done(traced());
   EXPECT_FALSE(plain["options"].contains("normal-input"));
   EXPECT_TRUE(plain["backend"].is_null());
   const ordered_json failed = failed_record(place, "why");
@@ -135,11 +126,9 @@ TEST(SweepRecord, NamesTheMachineTheVersionAndTheChosenOptions) {
 }
 
 TEST(SweepRecord, PixelsThatAreNotFiniteHaveNoFlip) {
-  const SweepPlan plan = small_plan();
   CellErrors e = errors();
   e.flip.reset();
-  const ordered_json r = done_record({plan.scenes[0], plan.scenes[0].series[0], 1, 8, "0123", "ref"},
-                                     statistics(), e, true, 2.5f);
+  const ordered_json r = done_record(cached(), statistics(), e, true, 2.5f);
   EXPECT_TRUE(r["errors"]["flip"].is_null());
   EXPECT_TRUE(r["flip_percentiles"].is_null());
   EXPECT_TRUE(r["error_map"].is_null());
@@ -149,11 +138,10 @@ TEST(SweepRecord, PixelsThatAreNotFiniteHaveNoFlip) {
 TEST(SweepRecord, IsReadBackWithTheNamesOfTheCurrentPlan) {
   const TemporaryFolder folder;
   const std::string root = folder.path().string();
-  const SweepPlan plan = small_plan();
-  const CellPlace place{plan.scenes[0], plan.scenes[0].series[0], 1, 8, "0123", "ref"};
+  const CellPlace place = cached();
   const auto read = [&](bool pictures) { return read_done_record(root, place, pictures); };
   EXPECT_FALSE(read(false).has_value());
-  ordered_json record = done_record(place, statistics(), errors(), true, 2.5f);
+  ordered_json record = done(place);
   record["series"] = "of another sweep";
   folder.write("cells/0123.json", record.dump());
   EXPECT_FALSE(read(true).has_value()) << "its picture is missing";
@@ -164,7 +152,7 @@ TEST(SweepRecord, IsReadBackWithTheNamesOfTheCurrentPlan) {
   picture.layers = {{.channels = {"R", "G", "B"}, .values = {1, 1, 1}}};
   renderer::write_image(picture, folder / "pictures/0123.png");
   const ordered_json found = *read(true);
-  EXPECT_EQ(found["series"], plan.scenes[0].series[0].label);
+  EXPECT_EQ(found["series"], place.series.label);
   EXPECT_EQ(found["errors"], record["errors"]);
   EXPECT_EQ(found["seconds"], record["seconds"]);
   EXPECT_EQ(found["picture"], "pictures/0123.png");
@@ -182,9 +170,8 @@ TEST(SweepRecord, IsReadBackWithTheNamesOfTheCurrentPlan) {
 
 TEST(SweepRecord, AnotherShapeOrSchemaIsIgnored) {
   const TemporaryFolder folder;
-  const SweepPlan plan = small_plan();
-  const CellPlace place{plan.scenes[0], plan.scenes[0].series[0], 1, 8, "0123", "ref"};
-  const ordered_json whole = done_record(place, statistics(), errors(), false, 2.5f);
+  const CellPlace place = cached();
+  const ordered_json whole = done(place, false);
   const auto reads = [&](const ordered_json& json) {
     folder.write("cells/0123.json", json.dump());
     return read_done_record(folder.path().string(), place, false).has_value();
@@ -194,7 +181,8 @@ TEST(SweepRecord, AnotherShapeOrSchemaIsIgnored) {
                            R"({"status": "done", "id": null})", R"({"status": "done", "id": "0123"})"}) {
     EXPECT_FALSE(reads(ordered_json::parse(text))) << text;
   }
-  for (const char* key : {"schema", "version", "cpu", "isa", "errors", "seconds", "picture", "loss"}) {
+  for (const char* key :
+       {"schema", "version", "cpu", "isa", "errors", "seconds", "picture", "loss", "estimated_error"}) {
     ordered_json without = whole;
     without.erase(key);
     EXPECT_FALSE(reads(without)) << key;
@@ -208,10 +196,6 @@ TEST(SweepRecord, AnotherShapeOrSchemaIsIgnored) {
     edited.merge_patch(ordered_json::parse(text));
     EXPECT_FALSE(reads(edited)) << text;
   }
-  ordered_json earlier = whole;
-  earlier.erase("estimated_error");
-  earlier["seconds"].erase("denoise");
-  EXPECT_TRUE(reads(earlier)) << "of a version that neither denoised nor estimated";
   ordered_json negative = whole;
   negative["errors"]["psnr"] = -3.0;
   EXPECT_TRUE(reads(negative)) << "a very bad picture";

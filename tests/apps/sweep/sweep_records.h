@@ -10,12 +10,26 @@
 
 namespace gatelight::apps {
 
-inline SweepPlan small_plan() {
-  SweepArguments words;
-  words.scenes = {"a, \"b\".glb"};
-  words.vary = {"stack=adaptive,1;adaptive"};
-  words.train_steps = "4,8";
-  return make_plan(make_request(words));
+inline const SweepPlan& small_plan() {
+  static const SweepPlan plan = [] {
+    SweepArguments words;
+    words.scenes = {"a, \"b\".glb"};
+    words.vary = {"stack=adaptive,1;adaptive"};
+    words.train_steps = "4,8";
+    return make_plan(make_request(words));
+  }();
+  return plan;
+}
+
+/// A cell of the series with a cache.
+inline CellPlace cached(const std::string& id = "0123", int steps = 8, std::uint32_t seed = 1) {
+  const PlannedScene& scene = small_plan().scenes[0];
+  return {scene, scene.series[0], seed, steps, id, "ref"};
+}
+/// A cell of the paths beside it.
+inline CellPlace traced(const std::string& id = "0123", int spp = 16) {
+  const PlannedScene& scene = small_plan().scenes[0];
+  return {scene, scene.series[1], 1, spp, id, "ref"};
 }
 
 /// Of the series of the first scene.
@@ -54,6 +68,10 @@ inline CellErrors errors() {
   e.flip.emplace();
   e.flip->summary = {.mean = 0.1, .weighted_median = 0.3, .first_quartile = 0.2, .third_quartile = 0.4};
   return e;
+}
+
+inline nlohmann::ordered_json done(const CellPlace& place, bool pictures = true) {
+  return done_record(place, statistics(), errors(), pictures, 2.5f);
 }
 
 /// Fields of lines, quotes as in RFC 4180.

@@ -155,14 +155,6 @@ TEST_F(SweepReferences, RepeatedStopsDoNotChangeTheirBits) {
   EXPECT_EQ(other.count_files(), 4u) << "two halves, their mean and its numbers";
 }
 
-TEST_F(SweepReferences, ADamagedCheckpointIsReplaced) {
-  const RenderSettings cell = settings(Integrator::path);
-  Reference reference = plan(cell, ReferenceKind::path);
-  folder.write(reference.key + "_a.checkpoint", "not a checkpoint");
-  EXPECT_TRUE(make_reference(reference, *scene_, cell, {}).has_value());
-  EXPECT_EQ(folder.count_files(), 4u);
-}
-
 TEST_F(SweepReferences, UnreadableOnesAreRenderedAgain) {
   const RenderSettings cell = settings(Integrator::path);
   Reference reference = plan(cell, ReferenceKind::path);
@@ -175,30 +167,16 @@ TEST_F(SweepReferences, UnreadableOnesAreRenderedAgain) {
   };
   const std::string half = tests::read_file(folder / (reference.key + "_a.exr"));
   folder.write(reference.key + "_a.exr", half.substr(0, half.size() / 2));
+  folder.write(reference.key + "_a.checkpoint", "not a checkpoint");
   folder.write(reference.key + ".json", "{");
-  EXPECT_EQ(again(), whole.layers[0].values) << "a half, and the numbers of the mean";
+  EXPECT_EQ(again(), whole.layers[0].values) << "a half, its checkpoint, and the numbers of the mean";
   folder.write(reference.key + ".exr", "no picture");
   folder.write(reference.key + "_b.exr", "");
   EXPECT_EQ(again(), whole.layers[0].values) << "the mean and the other half";
   EXPECT_EQ(folder.count_files(), 4u);
 }
 
-TEST_F(SweepReferences, AGivenReferenceIsIdentifiedByItsPixels) {
-  Picture picture{.width = 1, .height = 1, .metadata = {{"spp", "7"}}};
-  picture.layers = {{.channels = {"R", "G", "B"}, .values = {1.0f, 2.0f, 3.0f}}};
-  const std::string file = (folder / "r.exr").string();
-  renderer::RenderOptions cell;
-  cell.width = cell.height = 1;
-  renderer::write_image(picture, file, {.exr_float = true});
-  const Reference first = given_reference(ReferenceKind::path, {file}, cell);
-  EXPECT_EQ(first.spp, 7);
-  EXPECT_FALSE(first.rel_mse_noise.has_value());
-  picture.layers[0].values[2] = 3.5f;
-  renderer::write_image(picture, file, {.exr_float = true});
-  EXPECT_NE(given_reference(ReferenceKind::path, {file}, cell).key, first.key);
-}
-
-TEST_F(SweepReferences, GivenHalvesHaveAMeanItsNoiseAndTheBiasOfAPair) {
+TEST_F(SweepReferences, GivenOnesAreIdentifiedByTheirPixelsAndHalvesHaveAMeanItsNoiseAndTheBiasOfAPair) {
   const auto write = [&](const char* name, float value) {
     Picture picture{.width = 1, .height = 1, .metadata = {{"spp", "7"}}};
     picture.layers = {{.channels = {"R", "G", "B"}, .values = {value, value, value}}};
@@ -208,15 +186,21 @@ TEST_F(SweepReferences, GivenHalvesHaveAMeanItsNoiseAndTheBiasOfAPair) {
   };
   renderer::RenderOptions cell;
   cell.width = cell.height = 1;
-  Reference reference =
-      given_reference(ReferenceKind::path, {write("a.exr", 1.0f), write("b.exr", 3.0f)}, cell);
-  EXPECT_EQ(reference.spp, 14);
-  EXPECT_NEAR(*reference.rel_mse_noise, 1.0 / 4.01, 1e-9);
-  const Picture mean = *make_reference(reference, *scene_, settings(Integrator::path), {});
+  const auto given = [&](const std::vector<std::string>& files) {
+    return given_reference(ReferenceKind::path, files, cell);
+  };
+  const Reference one = given({write("r.exr", 1.0f)});
+  EXPECT_EQ(one.spp, 7);
+  EXPECT_FALSE(one.rel_mse_noise.has_value());
+  EXPECT_NE(given({write("r.exr", 1.5f)}).key, one.key);
+  Reference both = given({write("a.exr", 1.0f), write("b.exr", 3.0f)});
+  EXPECT_EQ(both.spp, 14);
+  EXPECT_NEAR(*both.rel_mse_noise, 1.0 / 4.01, 1e-9);
+  const Picture mean = *make_reference(both, *scene_, settings(Integrator::path), {});
   EXPECT_EQ(mean.layers[0].values[0], 2.0f);
   // (1.5 - 1) (4 - 3) over the square of the mean.
   const std::string second = write("second.exr", 4.0f);
-  EXPECT_NEAR(measure_bias(reference, write("first.exr", 1.5f), {renderer::read_image(second), second}),
+  EXPECT_NEAR(measure_bias(both, write("first.exr", 1.5f), {renderer::read_image(second), second}),
               0.5 / 4.01, 1e-9);
 }
 
@@ -288,11 +272,10 @@ TEST_F(SweepReferences, HdrFlipOfACellCanBeStopped) {
 }
 
 TEST_F(SweepReferences, CellsOfOtherMachinesHaveOtherNames) {
-  const std::string name = cell_name(fingerprint(), "text", "key", "cpu a\nisa avx2", true);
-  EXPECT_EQ(cell_name(fingerprint(), "text", "key", "cpu a\nisa avx2", true), name);
-  EXPECT_NE(cell_name(fingerprint(), "text", "key", "cpu b\nisa avx2", true), name);
-  EXPECT_NE(cell_name(fingerprint(), "text", "key2", "cpu a\nisa avx2", true), name);
-  EXPECT_NE(cell_name(fingerprint(), "text", "key", "cpu a\nisa avx2", false), name);
+  const std::string name = identity_name(fingerprint(), {"text", "cpu a"});
+  EXPECT_EQ(identity_name(fingerprint(), {"text", "cpu a"}), name);
+  EXPECT_NE(identity_name(fingerprint(), {"text", "cpu b"}), name);
+  EXPECT_NE(identity_name(fingerprint(), {"textcpu a", ""}), name);
   renderer::RenderOptions options;
   const std::string fastest = machine_text(options);
   EXPECT_THAT(fastest, HasSubstr(cpu_name()));

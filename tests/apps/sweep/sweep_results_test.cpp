@@ -23,18 +23,13 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using tests::TemporaryFolder;
 
+ordered_json results_of(const std::vector<ordered_json>& cells) {
+  return make_results({"x"}, {{.scene = {{"name", "a"}}, .cells = cells}});
+}
+
 TEST(SweepResults, TheTableEqualsTheJson) {
-  const SweepPlan plan = small_plan();
-  SceneResults scene;
-  scene.scene = {{"name", "a"}};
-  scene.cells.push_back(
-      failed_record({plan.scenes[0], plan.scenes[0].series[0], 1, 4, "f", "ref"}, "it, \"broke\""));
-  scene.cells.push_back(done_record({plan.scenes[0], plan.scenes[0].series[0], 1, 8, "d", "ref"},
-                                    statistics(), errors(), true, 2.5f));
-  scene.cells.push_back(done_record({plan.scenes[0], plan.scenes[0].series[1], 1, 8, "p", "ref"},
-                                    statistics(), errors(), false, 2.5f));
-  const ordered_json results = make_results({"gatelight", "sweep"}, {scene});
-  const auto rows = read_csv(results_csv(results));
+  const auto rows = read_csv(results_csv(results_of(
+      {failed_record(cached("f", 4), "it, \"broke\""), done(cached("d")), done(traced("p"), false)})));
   ASSERT_EQ(rows.size(), 4u);
   std::map<std::string, std::vector<std::string>> columns;
   for (std::size_t c = 0; c < rows[0].size(); ++c) {
@@ -57,26 +52,20 @@ TEST(SweepResults, TheTableEqualsTheJson) {
 }
 
 TEST(SweepResults, HaveTheSameColumnsWhateverTheirCells) {
-  const SweepPlan plan = small_plan();
-  const auto& series = plan.scenes[0].series;
-  const auto header = [&](const std::vector<ordered_json>& cells) {
-    return read_csv(results_csv(make_results({"x"}, {{.scene = {{"name", "a"}}, .cells = cells}})))[0];
+  const auto header = [](const std::vector<ordered_json>& cells) {
+    return read_csv(results_csv(results_of(cells)))[0];
   };
-  const ordered_json made =
-      done_record({plan.scenes[0], series[0], 1, 8, "d", "ref"}, statistics(), errors(), true, 2.5f);
+  const ordered_json made = done(cached("d"));
   const std::vector<std::string> columns = header({made});
   EXPECT_THAT(std::vector<std::string>(columns.end() - 2, columns.end()),
               ElementsAre("axis_integrator", "axis_stack"));
   const std::vector<std::string> fixed(columns.begin(), columns.end() - 2);
   EXPECT_EQ(header({}), fixed);
-  EXPECT_EQ(header({failed_record({plan.scenes[0], series[0], 1, 4, "f", "ref"}, "no")}), columns);
-  EXPECT_EQ(header({done_record({plan.scenes[0], series[1], 1, 8, "p", "ref"}, statistics(), errors(), true,
-                                2.5f)}),
-            std::vector<std::string>(columns.begin(), columns.end() - 1));
+  EXPECT_EQ(header({failed_record(cached("f", 4), "no")}), columns);
+  EXPECT_EQ(header({done(traced("p"))}), std::vector<std::string>(columns.begin(), columns.end() - 1));
   // Each number of a record has its own column.
   std::set<std::string> expected;
-  const ordered_json in_results =
-      make_results({"x"}, {{.scene = {{"name", "a"}}, .cells = {made}}})["cells"][0];
+  const ordered_json in_results = results_of({made})["cells"][0];
   for (const auto& [key, value] : in_results.items()) {
     if (key == "options" || key == "axes" || key == "schema") continue;
     if (!value.is_object()) expected.insert(key);
@@ -88,29 +77,23 @@ TEST(SweepResults, HaveTheSameColumnsWhateverTheirCells) {
 }
 
 TEST(SweepResults, NameTheMachineAndTheVersionsOfTheirCells) {
-  const SweepPlan plan = small_plan();
-  const auto made = [&](int threads, const std::string& isa, const std::string& by) {
-    ordered_json cell = done_record({plan.scenes[0], plan.scenes[0].series[0], 1, 8, "d", "ref"},
-                                    statistics(), errors(), true, 2.5f);
+  const auto made = [](int threads, const std::string& isa, const std::string& by) {
+    ordered_json cell = done(cached("d"));
     cell["options"]["threads"] = threads;
     cell["isa"] = isa;
     cell["version"] = by;
     return cell;
   };
-  const auto results = [](const std::vector<ordered_json>& cells) {
-    return make_results({"x"}, {{.scene = {{"name", "a"}}, .cells = cells}});
-  };
-  const ordered_json failed =
-      failed_record({plan.scenes[0], plan.scenes[0].series[0], 1, 4, "f", "ref"}, "no");
+  const ordered_json failed = failed_record(cached("f", 4), "no");
   const ordered_json all =
-      results({failed, made(1, "scalar", "0.1"), made(7, "avx2", "0.2"), made(2, "avx2", "0.1")});
+      results_of({failed, made(1, "scalar", "0.1"), made(7, "avx2", "0.2"), made(2, "avx2", "0.1")});
   EXPECT_EQ(all["schema"], 2);
   EXPECT_EQ(all["machine"], ordered_json({{"cpu", cpu_name()}, {"threads", 7}, {"isa", "avx2, scalar"}}));
   EXPECT_EQ(all["versions"]["gatelight"], version());
   EXPECT_EQ(all["versions"]["embree"], renderer::embree_version());
   EXPECT_EQ(all["versions"]["of_cells"], ordered_json({"0.1", "0.2"}));
-  EXPECT_EQ(results({made(1, "scalar", "0.1")})["machine"]["isa"], "scalar");
-  const ordered_json none = results({failed});
+  EXPECT_EQ(results_of({made(1, "scalar", "0.1")})["machine"]["isa"], "scalar");
+  const ordered_json none = results_of({failed});
   EXPECT_GT(none["machine"]["threads"], 0);
   EXPECT_NE(none["machine"]["isa"], "");
   EXPECT_EQ(none["versions"]["of_cells"], ordered_json::array());

@@ -5,7 +5,6 @@
 #include <sys/file.h>
 #include <unistd.h>
 
-#include "renderer/image/image_read.h"
 #include "tests/apps/sweep/sweep_test.h"
 #include "tests/support/tiny_scene.h"
 
@@ -32,19 +31,12 @@ TEST_F(SweepResume, ASecondCallRepeatsNothing) {
   ASSERT_EQ(run_gatelight_inside(words("out", {"--hidden", "16,32"})).exit_code, 0);
   EXPECT_GT(times().size(), before.size());
   for (const auto& [file, time] : before) EXPECT_EQ(times().at(file), time) << file;
-  // A cell whose picture was deleted is made again.
+  // A cell whose picture is damaged is made again.
   const std::string picture = path("out/" + first["cells"][0]["picture"].get<std::string>());
   const std::string whole = read_file(picture);
-  fs::remove(picture);
+  std::ofstream(picture, std::ios::binary) << whole.substr(0, whole.size() - 1);
   ASSERT_EQ(run_gatelight_inside(words("out", {})).exit_code, 0);
   EXPECT_EQ(read_file(picture), whole);
-  // So is one whose picture is damaged.
-  for (const std::size_t length : {std::size_t{0}, std::size_t{50}, whole.size() - 1}) {
-    std::ofstream(picture, std::ios::binary) << whole.substr(0, length);
-    const Output output = run_gatelight_inside(words("out", {}));
-    ASSERT_EQ(output.exit_code, 0) << output.err;
-    EXPECT_EQ(read_file(picture), whole) << length;
-  }
   // A record that is not a file cannot be replaced.
   const std::string record = path("out/cells/" + first["cells"][0]["id"].get<std::string>() + ".json");
   fs::remove(record);
@@ -143,12 +135,6 @@ TEST_F(SweepResume, AnInterruptedAndResumedSweepHasTheSameResults) {
     const std::string name = entry.path().filename().string();
     EXPECT_THAT(name, AllOf(Not(HasSubstr(".tmp")), Not(HasSubstr("checkpoint"))));
   }
-  for (const auto& entry : fs::directory_iterator(folder / "stopped/references")) {
-    if (entry.path().extension() != ".exr") continue;
-    EXPECT_EQ(
-        renderer::read_image(entry.path()).layers[0].values,
-        renderer::read_image(folder / "straight/references" / entry.path().filename()).layers[0].values);
-  }
 }
 
 TEST_F(SweepResume, CellsOfAnEarlierCallStayInTheResultsOfAStoppedOne) {
@@ -236,23 +222,6 @@ TEST_F(SweepResume, OtherKernelsAreMeasuredAgain) {
   ASSERT_EQ(second["cells"].size(), first["cells"].size());
   for (std::size_t i = 0; i < first["cells"].size(); ++i) {
     EXPECT_EQ(second["cells"][i]["id"] == first["cells"][i]["id"], first["cells"][i]["integrator"] == "path");
-  }
-}
-
-TEST_F(SweepResume, ResultsNameTheVersionsAndTheChosenOptions) {
-  ASSERT_EQ(run_gatelight_inside(words("out", {"--isa", "scalar", "--threads", "1"})).exit_code, 0);
-  const json all = results("out");
-  EXPECT_EQ(all["machine"]["isa"], "scalar");
-  EXPECT_EQ(all["machine"]["threads"], 1);
-  EXPECT_NE(all["versions"]["embree"], "");
-  for (const json& cell : all["cells"]) {
-    EXPECT_EQ(cell["isa"], "scalar");
-    EXPECT_EQ(cell["cpu"], all["machine"]["cpu"]);
-    EXPECT_EQ(cell["version"], all["version"]);
-    EXPECT_EQ(cell["options"]["isa"], "scalar");
-    for (const auto& [option, value] : cell["options"].items()) {
-      EXPECT_TRUE(value != "auto" || option == "cluster" || option == "environment") << option;
-    }
   }
 }
 
