@@ -31,7 +31,7 @@ using renderer::RenderStatistics;
 /// Why the work fails, in a line; empty where it does not. Where an output cannot be written, others could
 /// not be written either, so that ends the sweep.
 template <class Work>
-std::string failure_of(const Work& work) {
+std::string why_failed(const Work& work) {
   try {
     work();
   } catch (const OutputError&) {
@@ -83,7 +83,7 @@ bool SceneSweep::decide_memory() {
     // Building and scouting cannot be interrupted.
     if (stop_signal() != 0) return false;
     progress_.phase(fmt::format("memory of {}", series.label));
-    series_errors_[i] = failure_of([&] {
+    series_errors_[i] = why_failed([&] {
       const RenderSettings& gate = series.memory->settings;
       const std::string key =
           identity_name(fingerprint_of(gate), {"memory", deciding_text(gate, view_of(scene_, gate.render))});
@@ -210,7 +210,7 @@ const Picture* SceneSweep::reference_picture(std::size_t series) {
   const bool made = known.reference.is_made();
   const std::string kind = renderer::name_of(kReferenceKinds, known.reference.kind);
   if (!made) progress_.begin(fmt::format("{} reference {}", planned_.name, kind), true);
-  const std::string failure = failure_of([&] {
+  const std::string failure = why_failed([&] {
     known.picture = make_reference(known.reference, scene_, series_[series].settings, callbacks());
   });
   if (!failure.empty()) known.error = fmt::format("the reference could not be made: {}", failure);
@@ -241,7 +241,7 @@ bool SceneSweep::make(Run run) {
   bool finished = true;
   if (!reference && error.empty()) error = reference_of(run.series).error;
   if (reference && !run.missing.empty())
-    error = failure_of([&] { finished = render(run, *reference, next); });
+    error = why_failed([&] { finished = render(run, *reference, next); });
   if (!error.empty())
     fail({run.missing.begin() + static_cast<std::ptrdiff_t>(next), run.missing.end()}, error);
   if (finished) progress_.end();
