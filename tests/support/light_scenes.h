@@ -10,6 +10,7 @@
 #include "renderer/image/image_write.h"
 #include "renderer/light/lights.h"
 #include "scene/scene.h"
+#include "tests/support/random_points.h"
 #include "tests/support/temporary_folder.h"
 
 namespace gatelight::testing {
@@ -75,6 +76,13 @@ struct LitScene {
         lights(scene, textures, environment, selection) {}
   LitScene(const LitScene&) = delete;
 };
+
+/// A sample of the lights at p with normal n.
+inline renderer::LightSample draw_light(const renderer::Lights& lights, const Vec3& p, const Vec3& n,
+                                        Random& random) {
+  const float u_select = random.uniform_float();
+  return lights.sample(p, n, u_select, next_2d(random));
+}
 
 /// Irradiance of a polygon of radiance 1 at p with normal n: Lambert's formula after cutting away what lies
 /// below the horizon. Signed: positive when its corners run clockwise seen from p.

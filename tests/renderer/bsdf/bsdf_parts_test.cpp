@@ -9,6 +9,7 @@
 
 #include "renderer/sampling/warp.h"
 #include "tests/renderer/bsdf/bsdf_cases.h"
+#include "tests/support/random_points.h"
 #include "tests/support/statistics.h"
 
 namespace gatelight::renderer {
@@ -45,8 +46,7 @@ void for_each_split(F&& check) {
 
 BsdfSample draw(const Bsdf& bsdf, Random& random) {
   const float u_lobe = random.uniform_float();
-  const float x = random.uniform_float();
-  return bsdf.sample(u_lobe, {x, random.uniform_float()});
+  return bsdf.sample(u_lobe, testing::next_2d(random));
 }
 
 bool is_black(const Bsdf& bsdf) {
@@ -62,8 +62,7 @@ TEST(BsdfParts, ValuesAddUpToTheWhole) {
       // Half of the directions are where the lobes are.
       Vec3 wi = i % 2 == 0 ? draw(whole, random).wi : Vec3(Vec3::Zero());
       if (wi.isZero(0.0f)) {
-        const float x = random.uniform_float();
-        wi = sample_uniform_sphere({x, random.uniform_float()});
+        wi = sample_uniform_sphere(testing::next_2d(random));
       }
       const Color expected = whole.evaluate(wi).value;
       const Color sum = wide.evaluate(wi).value + narrow.evaluate(wi).value;

@@ -10,6 +10,7 @@
 #include "base/errors.h"
 #include "tests/renderer/cache/cache_sessions.h"
 #include "tests/renderer/cache/small_worlds.h"
+#include "tests/support/materials.h"
 
 namespace gatelight::renderer {
 namespace {
@@ -26,10 +27,7 @@ SceneBuilder room() {
               Vec3(2, 3, 2), true);
   builder.quad(builder.material(SceneBuilder::lambert(Color::Zero(), Color(9.0f, 8.0f, 7.0f))),
                Vec3(-0.5f, 2.9f, -0.5f), Vec3(1, 0, 0), Vec3(0, 0, 1));
-  scene::Material mirror;
-  mirror.base_color = Color::Constant(0.9f);
-  mirror.roughness = 0.0f;
-  builder.quad(builder.material(mirror), Vec3(-1.8f, 0.2f, -1.9f), Vec3(1.7f, 0, 0), Vec3(0, 2.5f, 0));
+  builder.quad(builder.material(testing::mirror()), Vec3(-1.8f, 0.2f, -1.9f), Vec3(1.7f, 0, 0), Vec3(0, 2.5f, 0));
   scene::Material metal;
   metal.base_color = Color(0.9f, 0.7f, 0.4f);
   metal.roughness = 0.4f;

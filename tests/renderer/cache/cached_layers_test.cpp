@@ -8,6 +8,7 @@
 #include "renderer/render.h"
 #include "tests/renderer/cache/cached_pictures.h"
 #include "tests/renderer/cache/small_worlds.h"
+#include "tests/support/materials.h"
 #include "tests/support/statistics.h"
 
 namespace gatelight::renderer {
@@ -48,11 +49,7 @@ TEST(CachedLayers, WithoutQueriesTheCachesViewIsTheMeanOfRecords) {
   builder.quad(builder.material(SceneBuilder::lambert(Color(0.2f, 0.7f, 0.4f), Color::Constant(5.0f))),
                Vec3(-500, 0, 500), Vec3(1000, 0, 0), Vec3(0, 0, -1000));
   builder.scene().cameras.push_back(view_from(Vec3(0, 2, 0), Vec3(0, 0, 0)));
-  scene::PunctualLight sun;
-  sun.type = scene::LightType::directional;
-  sun.direction = Vec3(0.6f, -0.8f, 0.0f);
-  sun.intensity = Color(1.0f, 2.0f, 3.0f);
-  builder.scene().lights = {sun};
+  builder.scene().lights = {testing::sun(Vec3(0.6f, -0.8f, 0.0f), Color(1.0f, 2.0f, 3.0f))};
   for (const CachedComponent holds :
        {CachedComponent::all, CachedComponent::no_delta, CachedComponent::indirect}) {
     RenderOptions options = cached_picture(Integrator::nrc);

@@ -14,6 +14,7 @@
 #include "renderer/film/camera.h"
 #include "renderer/transport/path_integrator.h"
 #include "renderer/transport/world.h"
+#include "tests/support/materials.h"
 #include "tests/support/scene_builder.h"
 #include "tests/support/statistics.h"
 
@@ -56,26 +57,14 @@ SceneBuilder mixed_scene() {
   pane.base_color = Color(0.8f, 0.9f, 1.0f);
   pane.double_sided = true;
   builder.quad(builder.material(pane), Vec3(0.5f, 0, 1.2f), Vec3(1.0f, 0, 0.2f), Vec3(0, 1.2f, 0));
-  scene::Material glass;
-  glass.metallic = 0.0f;
-  glass.roughness = 0.0f;
-  glass.transmission = 1.0f;
-  glass.thickness = 1.0f;
-  builder.sphere(builder.material(glass), Vec3(-1.0f, 0.45f, 1.7f), 0.4f, 24, true);
+  builder.sphere(builder.material(testing::solid_glass()), Vec3(-1.0f, 0.45f, 1.7f), 0.4f, 24, true);
   builder.sphere(builder.material(SceneBuilder::lambert(Color(0.8f, 0.8f, 0.3f))), Vec3(-1.0f, 0.4f, 1.7f),
                  0.2f, 16, true);
-  glass.roughness = 0.6f;
-  builder.sphere(builder.material(glass), Vec3(0.2f, 0.35f, 1.9f), 0.3f, 24, true);
+  builder.sphere(builder.material(testing::solid_glass(1.5f, 0.6f)), Vec3(0.2f, 0.35f, 1.9f), 0.3f, 24, true);
   const int lamp = builder.material(SceneBuilder::lambert(Color(0.2f, 0.2f, 0.2f), Color(4.0f, 3.0f, 2.0f)));
   builder.quad(lamp, Vec3(-1, 2.9f, -1), Vec3(2, 0, 0), Vec3(0, 0, 2));
-  scene::PunctualLight point;
-  point.position = Vec3(1.5f, 2.0f, 1.5f);
-  point.intensity = Color(1.0f, 1.5f, 2.0f);
-  scene::PunctualLight sun;
-  sun.type = scene::LightType::directional;
-  sun.direction = Vec3(-0.4f, -1.0f, -0.3f).normalized();
-  sun.intensity = Color(0.8f, 0.7f, 0.5f);
-  builder.scene().lights = {point, sun};
+  builder.scene().lights = {testing::point_light(Vec3(1.5f, 2.0f, 1.5f), Color(1.0f, 1.5f, 2.0f)),
+                            testing::sun(Vec3(-0.4f, -1.0f, -0.3f), Color(0.8f, 0.7f, 0.5f))};
   return builder;
 }
 

@@ -34,9 +34,7 @@ SceneBuilder room_with_glass() {
   builder.quad(0, Vec3(-2, 0, 2), Vec3(0, 0, -4), Vec3(0, 3, 0));
   builder.quad(builder.material(SceneBuilder::lambert(Color::Zero(), Color(9.0f, 8.0f, 7.0f))),
                Vec3(-0.5f, 2.9f, -0.5f), Vec3(1, 0, 0), Vec3(0, 0, 1));
-  scene::Material glass = SceneBuilder::clear_glass();
-  glass.thickness = 1.0f;
-  builder.sphere(builder.material(glass), Vec3(0.9f, 0.5f, 0.2f), 0.5f, 16, true);
+  builder.sphere(builder.material(testing::solid_glass()), Vec3(0.9f, 0.5f, 0.2f), 0.5f, 16, true);
   scene::Material gloss;
   gloss.base_color = Color(0.2f, 0.4f, 0.8f);
   gloss.metallic = 0.0f;

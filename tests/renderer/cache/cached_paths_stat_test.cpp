@@ -7,6 +7,7 @@
 
 #include <cmath>
 
+#include "tests/support/materials.h"
 #include "tests/support/scene_builder.h"
 #include "tests/support/statistics.h"
 
@@ -81,12 +82,7 @@ constexpr double kAbsorbed = 0.9;  ///< per metre, of green
 
 /// A medium that light enters unrefracted, above this floor.
 SceneBuilder pool(const scene::Material& floor) {
-  scene::Material water;
-  water.metallic = 0.0f;
-  water.roughness = 0.0f;
-  water.transmission = 1.0f;
-  water.ior = 1.0f;
-  water.thickness = 1.0f;
+  scene::Material water = testing::solid_glass(1.0f);
   water.attenuation_distance = 1.0f;
   water.attenuation_color = Color(0.2f, static_cast<float>(std::exp(-kAbsorbed)), 0.9f);
   SceneBuilder builder;

@@ -12,6 +12,7 @@
 #include "renderer/image/picture.h"
 #include "renderer/settings/options.h"
 #include "tests/renderer/cache/small_worlds.h"
+#include "tests/support/materials.h"
 #include "tests/support/picture_moments.h"
 
 namespace gatelight::renderer {
@@ -37,15 +38,8 @@ inline testing::SceneBuilder walls_and_mirror() {
   const int wall = builder.material(testing::SceneBuilder::lambert(Color(0.7f, 0.6f, 0.5f)));
   builder.quad(wall, Vec3(-2, 0, 2), Vec3(4, 0, 0), Vec3(0, 0, -4));
   builder.quad(wall, Vec3(-2, 0, -2), Vec3(4, 0, 0), Vec3(0, 3, 0));
-  scene::Material mirror;
-  mirror.base_color = Color::Constant(0.9f);
-  mirror.roughness = 0.0f;
-  builder.quad(builder.material(mirror), Vec3(0.2f, 0.2f, -1.9f), Vec3(1.5f, 0, 0), Vec3(0, 2, 0));
-  scene::PunctualLight sun;
-  sun.type = scene::LightType::directional;
-  sun.direction = Vec3(-0.3f, -0.6f, -0.5f).normalized();
-  sun.intensity = Color(1.0f, 0.9f, 0.7f);
-  builder.scene().lights = {sun};
+  builder.quad(builder.material(testing::mirror()), Vec3(0.2f, 0.2f, -1.9f), Vec3(1.5f, 0, 0), Vec3(0, 2, 0));
+  builder.scene().lights = {testing::sun(Vec3(-0.3f, -0.6f, -0.5f), Color(1.0f, 0.9f, 0.7f))};
   builder.scene().cameras.push_back(testing::view_from(Vec3(0.4f, 1.3f, 4), Vec3(0, 1, 0)));
   return builder;
 }

@@ -8,6 +8,7 @@
 
 #include "renderer/cache/radiance_records.h"
 #include "tests/renderer/cache/small_worlds.h"
+#include "tests/support/materials.h"
 #include "tests/support/statistics.h"
 
 namespace gatelight::renderer {
@@ -118,11 +119,7 @@ TEST_P(RadianceRecordsStat, SunAndSkyOverAPlaneGiveTheirCachedShare) {
   builder.quad(builder.material(SceneBuilder::lambert(Color(0.2f, 0.7f, 0.4f))), Vec3(-500, 0, 500),
                Vec3(1000, 0, 0), Vec3(0, 0, -1000));
   builder.scene().cameras.push_back(view_from(Vec3(0, 2, 0), Vec3(0, 0, 0)));
-  scene::PunctualLight sun;
-  sun.type = scene::LightType::directional;
-  sun.direction = Vec3(0.6f, -0.8f, 0.0f);
-  sun.intensity = Color(1.0f, 2.0f, 3.0f);
-  builder.scene().lights = {sun};
+  builder.scene().lights = {testing::sun(Vec3(0.6f, -0.8f, 0.0f), Color(1.0f, 2.0f, 3.0f))};
   const ViewedWorld viewed(builder, {.constant = Color(0.1f, 0.3f, 0.9f)});
   RenderOptions options = deep();
   options.cache.component = GetParam();

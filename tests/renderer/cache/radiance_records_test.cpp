@@ -9,6 +9,7 @@
 #include <set>
 
 #include "tests/renderer/cache/small_worlds.h"
+#include "tests/support/materials.h"
 
 namespace gatelight::renderer {
 namespace {
@@ -53,10 +54,7 @@ SceneBuilder room() {
   SceneBuilder builder;
   builder.box(builder.material(SceneBuilder::lambert(Color(0.7f, 0.6f, 0.5f))), Vec3(-2, 0, -2),
               Vec3(2, 3, 2), true);
-  scene::Material mirror;
-  mirror.base_color = Color::Constant(0.9f);
-  mirror.roughness = 0.0f;
-  builder.quad(builder.material(mirror), Vec3(-1.5f, 0.2f, -1.5f), Vec3(1.4f, 0, 0), Vec3(0, 2, 0));
+  builder.quad(builder.material(testing::mirror()), Vec3(-1.5f, 0.2f, -1.5f), Vec3(1.4f, 0, 0), Vec3(0, 2, 0));
   builder.box(builder.material(SceneBuilder::lambert(Color::Zero(), Color::Constant(6.0f))),
               Vec3(0.2f, 0.4f, -1.5f), Vec3(1.2f, 1.4f, -0.8f));
   scene::Material pane = SceneBuilder::clear_glass();

@@ -9,6 +9,7 @@
 #include "renderer/cache/cached_paths.h"
 #include "renderer/transport/path_integrator.h"
 #include "tests/renderer/cache/small_worlds.h"
+#include "tests/support/materials.h"
 
 namespace gatelight::renderer {
 namespace {
@@ -91,13 +92,7 @@ TEST(SameWalk, RouletteEndsPathsBehindThePanesOfTheLastDepth) {
 /// Nested closed meshes of glass, which absorb nothing, in a white sky.
 BothWays sheets(float ior, int layers, bool lamp_inside) {
   SceneBuilder builder;
-  scene::Material glass;
-  glass.metallic = 0.0f;
-  glass.roughness = 0.0f;
-  glass.ior = ior;
-  glass.transmission = 1.0f;
-  glass.thickness = 1.0f;
-  const int m = builder.material(glass);
+  const int m = builder.material(testing::solid_glass(ior));
   for (int i = 0; i < layers; ++i) {
     const float half = 1.0f - static_cast<float>(i) / static_cast<float>(layers);
     builder.box(m, Vec3(-20, -20, -half), Vec3(20, 20, half));
@@ -116,13 +111,7 @@ BothWays sheets(float ior, int layers, bool lamp_inside) {
 /// In equilibrium the radiance inside is that of the sky times the squared index of refraction.
 TEST(SameWalk, ARecordInsideGlassLearnsTheRadianceInsideGlass) {
   SceneBuilder builder;
-  scene::Material glass;
-  glass.metallic = 0.0f;
-  glass.roughness = 0.0f;
-  glass.ior = 1.5f;
-  glass.transmission = 1.0f;
-  glass.thickness = 1.0f;
-  builder.box(builder.material(glass), Vec3(-20, -20, -1), Vec3(20, 20, 1));
+  builder.box(builder.material(testing::solid_glass()), Vec3(-20, -20, -1), Vec3(20, 20, 1));
   const int white = builder.material(SceneBuilder::lambert(Color::Ones()));
   builder.box(white, Vec3(-19, -19, -0.5f), Vec3(19, 19, 0.5f));
   builder.scene().cameras.push_back(testing::view_from(Vec3(0, 0, 5), Vec3::Zero(), 0.2f));

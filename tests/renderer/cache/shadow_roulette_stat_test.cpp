@@ -8,6 +8,7 @@
 #include "renderer/cache/cached_paths.h"
 #include "renderer/transport/path_integrator.h"
 #include "tests/renderer/cache/small_worlds.h"
+#include "tests/support/materials.h"
 #include "tests/support/statistics.h"
 
 namespace gatelight::renderer {
@@ -46,10 +47,7 @@ SceneBuilder many_lamps() {
     const Vec3 p(2.0f * std::cos(a), 0.3f + 0.05f * static_cast<float>(i), 2.0f * std::sin(a) - 0.5f);
     builder.box(lamp(Color(1.0f, 4.0f, 2.0f)), p, p + Vec3::Constant(0.08f));
   }
-  scene::PunctualLight point;
-  point.position = Vec3(1.5f, 2.0f, 1.5f);
-  point.intensity = Color(0.6f, 0.6f, 1.2f);
-  builder.scene().lights = {point};
+  builder.scene().lights = {testing::point_light(Vec3(1.5f, 2.0f, 1.5f), Color(0.6f, 0.6f, 1.2f))};
   builder.scene().cameras.push_back(testing::view_from(Vec3(0.3f, 1.2f, 3.5f), Vec3(0, 0.5f, 0)));
   return builder;
 }

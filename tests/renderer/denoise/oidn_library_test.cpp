@@ -6,14 +6,13 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <cstdlib>
 #include <filesystem>
-#include <optional>
 #include <string>
 
 #include "base/errors.h"
 #include "renderer/driver/chosen_denoiser.h"
 #include "tests/support/denoiser.h"
+#include "tests/support/environment_variable.h"
 #include "tests/support/messages.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/thread_ranks.h"
@@ -26,20 +25,6 @@ using tests::expect_refusal;
 using tests::TemporaryFolder;
 
 constexpr const char* kFile = "libOpenImageDenoise.so.2";
-
-/// Sets a variable of the environment for a while.
-class Variable {
- public:
-  Variable(const char* name, const std::string& value) : name_(name) {
-    if (const char* const old = std::getenv(name)) old_ = old;
-    setenv(name, value.c_str(), 1);
-  }
-  ~Variable() { old_ ? setenv(name_, old_->c_str(), 1) : unsetenv(name_); }
-
- private:
-  const char* name_;
-  std::optional<std::string> old_;
-};
 
 TEST(OidnLibrary, AFileOrAFolderIsLoadedAndNothingElse) {
   const TemporaryFolder folder;
@@ -57,7 +42,7 @@ TEST(OidnLibrary, TheNewestOneOfTheCacheFolderTakesPrecedence) {
     fs::create_directories(cache / "gatelight" / name / "lib");
     fs::copy(GATELIGHT_STAND_IN_OIDN_2, cache / "gatelight" / name / "lib" / kFile);
   }
-  const Variable home("XDG_CACHE_HOME", cache.path().string());
+  const tests::EnvironmentVariable home("XDG_CACHE_HOME", cache.path().string());
   // The search itself is not remembered for other tests: this process has its own cache folder now.
   EXPECT_EQ(find_oidn_file(""), (cache / "gatelight/oidn-2.5.1/lib" / kFile).string());
   EXPECT_EQ(find_oidn_file("/a/b.so"), "/a/b.so");

@@ -9,6 +9,7 @@
 #include "renderer/image/image_write.h"
 #include "renderer/render.h"
 #include "tests/support/denoiser.h"
+#include "tests/support/materials.h"
 #include "tests/support/messages.h"
 #include "tests/support/scene_builder.h"
 #include "tests/support/statistics.h"
@@ -35,9 +36,7 @@ SceneBuilder row_of_objects() {
   scene::Material pane = SceneBuilder::clear_glass();
   pane.base_color = Color(0.9f, 0.5f, 0.7f);
   builder.quad(builder.material(pane), Vec3(0, -1, 0), Vec3(1.6f, 0, 0), Vec3(0, 2, 0));
-  scene::Material glass = SceneBuilder::clear_glass();
-  glass.thickness = 1.0f;
-  builder.box(builder.material(glass), Vec3(2, -1, -1), Vec3(3.6f, 1, 1));
+  builder.box(builder.material(testing::solid_glass()), Vec3(2, -1, -1), Vec3(3.6f, 1, 1));
   return builder;
 }
 
@@ -265,10 +264,7 @@ TEST(ShadowCatcher, IsInvisibleExceptForTheShadowOfASun) {
   builder.box(builder.material(SceneBuilder::lambert(Color::Constant(0.5f))), Vec3(1, 1.9f, -1),
               Vec3(3, 2, 1));
   scene::Scene scene = floor_with(builder);
-  scene::PunctualLight sun;
-  sun.type = scene::LightType::directional;
-  sun.direction = Vec3(-1, -1, 0).normalized();
-  scene.lights.push_back(sun);
+  scene.lights.push_back(testing::sun(Vec3(-1, -1, 0)));
   GATELIGHT_NEEDS_DENOISER();
   for (const Integrator integrator : {Integrator::path, Integrator::nrc}) {
     for (const bool denoised : {false, true}) {

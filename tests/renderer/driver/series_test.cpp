@@ -104,7 +104,7 @@ TEST_P(SeriesOf, StoppedAnywhereItGivesWholePicturesOnly) {
   const std::vector<Result> straight = collect(renderer, series);
   std::vector<bool> seen(4, false);
   std::size_t pictures = 0;
-  for (int stop_at = 1; pictures < 3; stop_at += 1 + stop_at / 20) {
+  for (int stop_at = 1; pictures < 3; stop_at += 1 + stop_at / 8) {
     SCOPED_TRACE(stop_at);
     ASSERT_LT(stop_at, 1000);
     std::atomic<int> calls = 0;

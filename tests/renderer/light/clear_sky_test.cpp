@@ -180,8 +180,7 @@ TEST(ClearSky, ADensityIsThatOfItsSamplesAndIntegratesToOne) {
   for (const Vec3& n : {Vec3(0, 0, 0), Vec3(0, 1, 0), towards(180.0f, -40.0f)}) {
     int others = 0;  // at the borders of texels and of the disc rounding decides
     for (int i = 0; i < 20000; ++i) {
-      const float u = random.uniform_float();
-      const EnvironmentSample s = environment.sample(Vec2(u, random.uniform_float()), n);
+      const EnvironmentSample s = environment.sample(testing::next_2d(random), n);
       const float pdf = environment.pdf(s.wi, n);
       if (!(std::abs(pdf / s.pdf - 1.0f) < 1e-3f)) ++others;
       if (s.radiance.maxCoeff() > 0.0f) {
@@ -225,8 +224,7 @@ TEST(ClearSky, ARisingDiscIsCutByTheHorizon) {
   int above = 0;
   constexpr int kSamples = 20000;
   for (int i = 0; i < kSamples; ++i) {
-    const float u = random.uniform_float();
-    const Vec3 d = disc.sample(Vec2(u, random.uniform_float()));
+    const Vec3 d = disc.sample(testing::next_2d(random));
     ASSERT_NEAR((d - towards(0.0f, 0.0f)).norm(), 0.0f, 0.0101f);
     if (disc.radiance(d).x() > 0.0f) ++above;
   }

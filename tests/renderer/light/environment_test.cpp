@@ -85,8 +85,7 @@ void expect_samples_follow_density(const EnvironmentPicture& picture, std::uint6
   testing::Random random(seed);
   testing::Moments mean;
   for (int i = 0; i < kSamples; ++i) {
-    const float u = random.uniform_float();
-    const EnvironmentSample sample = picture.sample(Vec2(u, random.uniform_float()));
+    const EnvironmentSample sample = picture.sample(testing::next_2d(random));
     ASSERT_GT(sample.pdf, 0.0f);
     ASSERT_NEAR(sample.wi.norm(), 1.0f, 1e-5f);
     mean.add(static_cast<double>(sample.radiance.x() / sample.pdf));
@@ -117,8 +116,7 @@ TEST(EnvironmentTest, TheDensityIsNowhereZeroWhereThePictureShines) {
   const EnvironmentPicture picture(240, 120, peaky(240, 120));
   testing::Random random(6);
   for (int i = 0; i < 20000; ++i) {
-    const float u = random.uniform_float();
-    const Vec3 wi = sample_uniform_sphere(Vec2(u, random.uniform_float()));
+    const Vec3 wi = sample_uniform_sphere(testing::next_2d(random));
     ASSERT_GT(picture.pdf(wi), 0.0f);
   }
   for (const Vec3& pole : {Vec3(0, 1, 0), Vec3(0, -1, 0), Vec3(0, 0, 1), Vec3(0, 0, -1)}) {
@@ -180,8 +178,7 @@ TEST_F(EnvironmentFileTest, OrientationRotationAndScaleAreAsDocumented) {
   EXPECT_NEAR(turned.mean().x(), 2.0f * plain.mean().x(), 1e-4f);
   testing::Random random(8);
   for (int i = 0; i < 1000; ++i) {
-    const float u = random.uniform_float();
-    const EnvironmentSample sample = turned.sample(Vec2(u, random.uniform_float()));
+    const EnvironmentSample sample = turned.sample(testing::next_2d(random));
     EXPECT_NEAR(turned.radiance(sample.wi).x() / sample.radiance.x(), 1.0f, 1e-3f);
   }
 }
@@ -194,8 +191,7 @@ TEST_F(EnvironmentFileTest, BadTexelsCountAsZero) {
   const Environment environment({.file = write(8, 4, texels), .scale = 100.0f});
   testing::Random random(9);
   for (int i = 0; i < 5000; ++i) {
-    const float u = random.uniform_float();
-    const EnvironmentSample sample = environment.sample(Vec2(u, random.uniform_float()));
+    const EnvironmentSample sample = environment.sample(testing::next_2d(random));
     ASSERT_TRUE(std::isfinite(sample.pdf) && sample.pdf > 0.0f);
     ASSERT_TRUE(sample.radiance.isFinite().all() && (sample.radiance >= 0.0f).all());
   }

@@ -9,6 +9,7 @@
 #include "renderer/light/lights.h"
 #include "renderer/sampling/warp.h"
 #include "tests/support/light_scenes.h"
+#include "tests/support/materials.h"
 #include "tests/support/statistics.h"
 
 namespace gatelight::renderer {
@@ -76,9 +77,7 @@ double expect_samples_follow_densities(const LitScene& lit, const Vec3& p, const
   std::vector<double> observed(expected.size(), 0.0);
   testing::Random random(seed);
   for (int s = 0; s < samples; ++s) {
-    const float u_select = random.uniform_float();
-    const float u = random.uniform_float();
-    const LightSample sample = lit.lights.sample(p, n, u_select, Vec2(u, random.uniform_float()));
+    const LightSample sample = testing::draw_light(lit.lights, p, n, random);
     if (!(sample.pdf > 0.0f)) {
       observed.back() += 1.0;
       continue;
@@ -199,9 +198,7 @@ TEST(LightSamplingTest, AConstantSkyIsSampledByTheCosine) {
   testing::Random random(70);
   std::vector<double> observed(kBins * kBins, 0.0);
   for (int i = 0; i < kSamples; ++i) {
-    const float u_select = random.uniform_float();
-    const float u = random.uniform_float();
-    const LightSample sample = lit.lights.sample(Vec3::Zero(), n, u_select, Vec2(u, random.uniform_float()));
+    const LightSample sample = testing::draw_light(lit.lights, Vec3::Zero(), n, random);
     ASSERT_NEAR(sample.pdf, lit.lights.pdf_environment(Vec3::Zero(), n, sample.wi), 1e-5f);
     const float x = basis.tangent.dot(sample.wi);
     const float y = basis.bitangent.dot(sample.wi);
@@ -230,12 +227,7 @@ TEST(LightSamplingTest, AConstantSkyIsSampledByTheCosine) {
 TEST(LightSamplingTest, SharesOfTreeSunAndSkyAgreeWithTheDensities) {
   scene::Scene scene;
   testing::add_light(scene, {kOverhead}, Color(1, 1, 1));
-  scene::PunctualLight sun;
-  sun.type = scene::LightType::directional;
-  sun.direction = Vec3(0, -1, 0);
-  scene.lights = {sun};
-  sun.direction = Vec3(0, 0.6f, 0.8f);  // from below
-  scene.lights.push_back(sun);
+  scene.lights = {testing::sun(Vec3(0, -1, 0)), testing::sun(Vec3(0, 0.6f, 0.8f))};  // and from below
   const tests::TemporaryFolder folder;
   const LitScene lit(std::move(scene), LightSelection::tree, testing::uniform_picture(folder, 0.5f));
   const Vec3 p = Vec3::Zero();
@@ -248,9 +240,7 @@ TEST(LightSamplingTest, SharesOfTreeSunAndSkyAgreeWithTheDensities) {
     testing::Random random(80);
     constexpr int kSamples = 20000;
     for (int i = 0; i < kSamples; ++i) {
-      const float u_select = random.uniform_float();
-      const float u = random.uniform_float();
-      const LightSample sample = lit.lights.sample(p, c.n, u_select, Vec2(u, random.uniform_float()));
+      const LightSample sample = testing::draw_light(lit.lights, p, c.n, random);
       ASSERT_GT(sample.pdf, 0.0f);
       if (sample.delta) {
         EXPECT_NEAR(static_cast<double>(sample.pdf), 1.0 / c.parts, 1e-6);
@@ -274,11 +264,8 @@ TEST(LightSamplingTest, SharesOfTreeSunAndSkyAgreeWithTheDensities) {
 }
 
 TEST(LightSamplingTest, AConstantSkyTakesNoSamplesFromOtherLights) {
-  scene::PunctualLight sun;
-  sun.type = scene::LightType::directional;
-  sun.direction = Vec3(0, -1, 0);
   scene::Scene scene;
-  scene.lights = {sun};
+  scene.lights = {testing::sun(Vec3(0, -1, 0))};
   const LitScene lit(std::move(scene), LightSelection::tree, {.constant = Color(0.5f, 0.5f, 0.5f)});
   const LightSample towards_sun = lit.lights.sample(Vec3::Zero(), Vec3::UnitY(), 0.7f, Vec2(0.3f, 0.6f));
   EXPECT_TRUE(towards_sun.delta);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "renderer/sampling/warp.h"
+#include "tests/support/random_points.h"
 #include "tests/support/statistics.h"
 
 namespace gatelight::renderer {
@@ -17,8 +18,7 @@ std::vector<LightBounds> scattered(int count, std::uint64_t seed, float size = 1
   for (int i = 0; i < count; ++i) {
     LightBounds light;
     for (int axis = 0; axis < 3; ++axis) light.centre[axis] = size * (random.uniform_float() - 0.5f);
-    const float u = random.uniform_float();
-    light.axis = sample_uniform_sphere(Vec2(u, random.uniform_float()));
+    light.axis = sample_uniform_sphere(testing::next_2d(random));
     light.radius = size * 0.01f * random.uniform_float();
     light.two_sided = i % 3 == 0;
     if (i % 7 == 0) light.cos_normals = -1.0f;
@@ -93,8 +93,7 @@ TEST(LightTreeTest, EveryLightThatShinesOnThePointCanBeChosen) {
     for (int trial = 0; trial < 200; ++trial) {
       Vec3 p;
       for (int axis = 0; axis < 3; ++axis) p[axis] = 2.0f * size * (random.uniform_float() - 0.5f);
-      const float u = random.uniform_float();
-      const Vec3 n = sample_uniform_sphere(Vec2(u, random.uniform_float()));
+      const Vec3 n = sample_uniform_sphere(testing::next_2d(random));
       for (std::uint32_t i = 0; i < lights.size(); ++i) {
         const LightBounds& light = lights[i];
         const float probability = tree.probability(p, n, i);

@@ -53,11 +53,8 @@ TEST(LightsTest, SamplesAreFiniteAndAgreeWithTheDensityAtEveryScale) {
         int found = 0;
         for (int i = 0; i < 4000; ++i) {
           const Vec3 p = random_vector(random, size);
-          const float u = random.uniform_float();
-          const Vec3 n = sample_uniform_sphere(Vec2(u, random.uniform_float()));
-          const float u_select = random.uniform_float();
-          const float u_x = random.uniform_float();
-          const LightSample sample = lit.lights.sample(p, n, u_select, Vec2(u_x, random.uniform_float()));
+          const Vec3 n = sample_uniform_sphere(testing::next_2d(random));
+          const LightSample sample = testing::draw_light(lit.lights, p, n, random);
           if (!(sample.pdf > 0.0f)) continue;
           ++found;
           ASSERT_TRUE(std::isfinite(sample.pdf) && std::isfinite(sample.distance));
@@ -91,9 +88,7 @@ TEST(LightsTest, PointsOnTheLightAndInItsPlaneAreHarmless) {
   for (const Vec3& p : points) {
     for (const Vec3& n : {Vec3(0, 1, 0), Vec3(0, -1, 0), Vec3(0, 0, 0)}) {
       for (int i = 0; i < 500; ++i) {
-        const float u_select = random.uniform_float();
-        const float u = random.uniform_float();
-        const LightSample sample = lit.lights.sample(p, n, u_select, Vec2(u, random.uniform_float()));
+        const LightSample sample = testing::draw_light(lit.lights, p, n, random);
         ASSERT_TRUE(std::isfinite(sample.pdf) && sample.pdf >= 0.0f);
         if (sample.pdf > 0.0f) {
           ASSERT_TRUE(sample.radiance.isFinite().all() && sample.wi.allFinite());
@@ -168,11 +163,9 @@ TEST(LightsTest, EmissionTextureAndAlphaShapeTheLight) {
     int bright = 0;
     int dark = 0;
     for (int i = 0; i < 400; ++i) {
-      const float u_select = random.uniform_float();
-      const float u = random.uniform_float();
       const Vec3 p(0.5f, 0, 0.5f);
       const LightSample sample =
-          lit.lights.sample(p, Vec3::UnitY(), u_select, Vec2(u, random.uniform_float()));
+          testing::draw_light(lit.lights, p, Vec3::UnitY(), random);
       ASSERT_GT(sample.pdf, 0.0f);
       const float x = (p + sample.distance * sample.wi).x();
       if (std::abs(x - 0.5f) < 0.07f) continue;  // within the filter's reach

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "tests/support/random_points.h"
 #include "tests/support/statistics.h"
 
 namespace gatelight::renderer {
@@ -20,8 +21,7 @@ void expect_directions_follow(Sample&& sample, Pdf&& pdf, double z0, std::uint64
   testing::Random random(seed);
   std::vector<double> observed(kBins * kBins, 0.0);
   for (int i = 0; i < kSamples; ++i) {
-    const float u = random.uniform_float();
-    const Vec3 d = sample(Vec2(u, random.uniform_float()));
+    const Vec3 d = sample(testing::next_2d(random));
     ASSERT_NEAR(d.norm(), 1.0f, 1e-5f);
     const double z = (static_cast<double>(d.z()) - z0) / (1.0 - z0);
     ASSERT_GE(z, -1e-3);
@@ -66,8 +66,7 @@ TEST(WarpTest, ConcentricDiskIsUniform) {
   testing::Random random(5);
   std::vector<double> observed(kBins * kBins, 0.0);
   for (int i = 0; i < kSamples; ++i) {
-    const float u = random.uniform_float();
-    const Vec2 p = sample_concentric_disk(Vec2(u, random.uniform_float()));
+    const Vec2 p = sample_concentric_disk(testing::next_2d(random));
     const double r2 = p.cast<double>().squaredNorm();
     ASSERT_LE(r2, 1.0 + 1e-6);
     const double azimuth = std::atan2(p.y(), p.x()) / (2.0 * M_PI) + 0.5;
@@ -86,8 +85,7 @@ TEST(WarpTest, TriangleIsUniformByArea) {
   testing::Random random(6);
   std::vector<double> observed(kSide * kSide, 0.0);
   for (int i = 0; i < kSamples; ++i) {
-    const float u = random.uniform_float();
-    const Vec2 b = sample_uniform_triangle(Vec2(u, random.uniform_float()));
+    const Vec2 b = sample_uniform_triangle(testing::next_2d(random));
     ASSERT_GE(b.x(), 0.0f);
     ASSERT_GE(b.y(), 0.0f);
     ASSERT_LE(b.x() + b.y(), 1.0f + 1e-6f);
@@ -111,8 +109,7 @@ TEST(WarpTest, BasesAreOrthonormalAndRightHanded) {
       Vec3::UnitX(),  Vec3::UnitY(),  Vec3::UnitZ(),     -Vec3::UnitX(),
       -Vec3::UnitY(), -Vec3::UnitZ(), Vec3(0, 0, -1.0f), Vec3(1e-4f, 0, -1).normalized()};
   for (int i = 0; i < 10000; ++i) {
-    const float u = random.uniform_float();
-    normals.push_back(sample_uniform_sphere(Vec2(u, random.uniform_float())));
+    normals.push_back(sample_uniform_sphere(testing::next_2d(random)));
   }
   for (const Vec3& n : normals) {
     const Basis basis(n);

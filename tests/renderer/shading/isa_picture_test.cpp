@@ -2,33 +2,18 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <optional>
 #include <string>
 
 #include "base/simd/isa.h"
 #include "renderer/render.h"
+#include "tests/support/environment_variable.h"
+#include "tests/support/materials.h"
 #include "tests/support/scene_builder.h"
 
 namespace gatelight::renderer {
 namespace {
 using testing::SceneBuilder;
-
-/// Sets a variable of the environment for a while.
-class Variable {
- public:
-  Variable(const char* name, const std::string& value) : name_(name) {
-    if (const char* before = std::getenv(name)) before_ = before;
-    setenv(name, value.c_str(), 1);
-  }
-  ~Variable() { before_ ? setenv(name_, before_->c_str(), 1) : unsetenv(name_); }
-  Variable(const Variable&) = delete;
-  Variable& operator=(const Variable&) = delete;
-
- private:
-  const char* name_;
-  std::optional<std::string> before_;
-};
 
 SceneBuilder everything() {
   SceneBuilder builder;
@@ -47,27 +32,19 @@ SceneBuilder everything() {
   pane.roughness = 0.2f;
   pane.double_sided = true;
   builder.quad(builder.material(pane), Vec3(0.2f, 0.0f, 0.8f), Vec3(1.2f, 0, 0), Vec3(0, 1.2f, 0));
-  scene::Material metal;
-  metal.metallic = 1.0f;
-  metal.roughness = 0.0f;
-  builder.sphere(builder.material(metal), Vec3(0.9f, 0.5f, -0.5f), 0.5f, 16, true);
+  builder.sphere(builder.material(testing::mirror(1.0f)), Vec3(0.9f, 0.5f, -0.5f), 0.5f, 16, true);
   const int lamp = builder.material(SceneBuilder::lambert(Color::Zero(), Color(8, 7, 6)));
   for (int i = 0; i < 12; ++i) {
     const Vec3 p(-2.0f + 0.4f * static_cast<float>(i), 2.0f, -1.0f);
     builder.box(lamp, p, p + Vec3::Constant(0.1f));
   }
-  scene::PunctualLight sun;
-  sun.type = scene::LightType::directional;
-  sun.direction = Vec3(0.3f, -1.0f, 0.2f).normalized();
-  sun.intensity = Color(1, 1, 1);
-  scene::PunctualLight spot;
-  spot.type = scene::LightType::spot;
-  spot.position = Vec3(0, 3, 2);
-  spot.direction = Vec3(0, -1, -0.5f).normalized();
-  spot.intensity = Color(5, 5, 9);
-  spot.cos_inner = 0.95f;
-  spot.cos_outer = 0.7f;
-  builder.scene().lights = {sun, spot};
+  builder.scene().lights = {testing::sun(Vec3(0.3f, -1.0f, 0.2f)),
+                            {.type = scene::LightType::spot,
+                             .intensity = Color(5, 5, 9),
+                             .position = Vec3(0, 3, 2),
+                             .direction = Vec3(0, -1, -0.5f).normalized(),
+                             .cos_inner = 0.95f,
+                             .cos_outer = 0.7f}};
   return builder;
 }
 
@@ -85,7 +62,7 @@ TEST(ShadingIsa, APictureHasTheSameBitsOnEveryInstructionSet) {
     options.light_groups = {{"lamps", {"*"}}, {"sky", {"environment"}}};
     std::optional<Picture> first;
     for (const simd::Isa isa : simd::available_isas()) {
-      const Variable chosen("GATELIGHT_ISA", std::string(simd::isa_name(isa)));
+      const tests::EnvironmentVariable chosen("GATELIGHT_ISA", std::string(simd::isa_name(isa)));
       const Picture picture = Renderer(builder.scene(), options).render();
       if (!first) {
         first = picture;

@@ -4,6 +4,7 @@
 
 #include "tests/renderer/shading/lanes.h"
 #include "tests/support/light_scenes.h"
+#include "tests/support/materials.h"
 
 namespace gatelight::renderer {
 namespace {
@@ -21,11 +22,7 @@ LitScene lit_scene() {
     add_light(scene, {{at, at + random_direction(random), at + random_direction(random)}}, Color(3, 2, 1),
               true);
   }
-  scene::PunctualLight point;
-  point.type = scene::LightType::point;
-  point.position = Vec3(0, 6, 0);
-  point.intensity = Color(30, 20, 10);
-  scene.lights.push_back(point);
+  scene.lights.push_back(gatelight::testing::point_light(Vec3(0, 6, 0), Color(30, 20, 10)));
   return LitScene(std::move(scene));
 }
 

@@ -8,6 +8,7 @@
 
 #include "renderer/sampling/warp.h"
 #include "tests/renderer/cache/small_worlds.h"
+#include "tests/support/materials.h"
 
 namespace gatelight::renderer {
 namespace {
@@ -91,10 +92,7 @@ TEST(VisiblePoints, HiddenThingsHaveNoEarlierPlace) {
 
 TEST(VisiblePoints, InAMirrorAreWhereTheImageWas) {
   SceneBuilder builder;
-  scene::Material mirror;
-  mirror.metallic = 1.0f;
-  mirror.roughness = 0.0f;
-  builder.quad(builder.material(mirror), Vec3(-9, -9, 0), Vec3(18, 0, 0), Vec3(0, 18, 0));
+  builder.quad(builder.material(testing::mirror(1.0f)), Vec3(-9, -9, 0), Vec3(18, 0, 0), Vec3(0, 18, 0));
   const int matte = builder.material(SceneBuilder::lambert(Color::Constant(0.5f)));
   builder.quad(matte, Vec3(9, -9, 9), Vec3(-18, 0, 0), Vec3(0, 18, 0));
   const World world(builder.scene());
@@ -124,11 +122,9 @@ struct ChangingWall {
     pane.alpha_mode = scene::AlphaMode::blend;
     pane.base_alpha = 0.5f;
     veil = builder.material(pane);
-    scene::Material mirror;
-    mirror.roughness = 0.0f;
     builder.quad(wall, Vec3(-9, -9, -4), Vec3(18, 0, 0), Vec3(0, 18, 0));
     builder.quad(veil, Vec3(-3, -3, 0), Vec3(2, 0, 0), Vec3(0, 6, 0));
-    builder.quad(builder.material(mirror), Vec3(2, -3, 2), Vec3(0, 0, -4), Vec3(0, 6, 0));
+    builder.quad(builder.material(testing::mirror(1.0f)), Vec3(2, -3, 2), Vec3(0, 0, -4), Vec3(0, 6, 0));
     scene.motion.materials = true;
     before = scene.materials;
   }

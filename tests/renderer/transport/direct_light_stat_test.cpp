@@ -11,6 +11,7 @@
 #include "renderer/light/lights.h"
 #include "renderer/sampling/warp.h"
 #include "tests/support/light_scenes.h"
+#include "tests/support/materials.h"
 #include "tests/support/statistics.h"
 
 namespace gatelight::renderer {
@@ -27,9 +28,7 @@ Moments irradiance(const Lights& lights, const Vec3& p, const Vec3& n, int sampl
   Moments moments;
   testing::Random random(seed);
   for (int i = 0; i < samples; ++i) {
-    const float u_select = random.uniform_float();
-    const float u = random.uniform_float();
-    const LightSample sample = lights.sample(p, n, u_select, Vec2(u, random.uniform_float()));
+    const LightSample sample = testing::draw_light(lights, p, n, random);
     const float value =
         sample.pdf > 0.0f ? sample.radiance.x() * std::max(0.0f, n.dot(sample.wi)) / sample.pdf : 0.0f;
     EXPECT_TRUE(std::isfinite(value));
@@ -130,11 +129,7 @@ TEST(DirectLightTest, DiskAgreesWithItsClosedForm) {
 
 TEST(DirectLightTest, SunAndConstantSkyAreExact) {
   scene::Scene scene;
-  scene::PunctualLight sun;
-  sun.type = scene::LightType::directional;
-  sun.direction = Vec3(0, -1, 0);
-  sun.intensity = Color(4, 4, 4);
-  scene.lights = {sun};
+  scene.lights = {testing::sun(Vec3(0, -1, 0), Color(4, 4, 4))};
   const LitScene lit(std::move(scene));
   const LitScene sky(scene::Scene{}, LightSelection::tree, {.constant = Color(1, 1, 1), .scale = 0.5f});
   for (const float degrees : {0.0f, 30.0f, 85.0f}) {
@@ -153,14 +148,8 @@ TEST(DirectLightTest, SunSkyAndLampsAddUp) {
   const std::vector<Triangle> triangles = testing::quad(Vec3(-1, 2, -1), Vec3(2, 0, 0), Vec3(0, 0, 2));
   scene::Scene scene;
   testing::add_light(scene, triangles, Color(3, 3, 3));
-  scene::PunctualLight light;
-  light.type = scene::LightType::directional;
-  light.direction = Vec3(0, -1, 0);
-  light.intensity = Color(2, 2, 2);
-  scene.lights.push_back(light);
-  light.type = scene::LightType::point;
-  light.position = Vec3(0, 1, 0);
-  scene.lights.push_back(light);
+  scene.lights = {testing::sun(Vec3(0, -1, 0), Color(2, 2, 2)),
+                  testing::point_light(Vec3(0, 1, 0), Color(2, 2, 2))};
   const tests::TemporaryFolder folder;
   const LitScene lit(std::move(scene), LightSelection::tree, testing::uniform_picture(folder, 1.0f));
   const Vec3 n = tilted(20.0f);
@@ -171,10 +160,7 @@ TEST(DirectLightTest, SunSkyAndLampsAddUp) {
 
 TEST(DirectLightTest, PointAndSpotHaveTheExtensionsFalloff) {
   scene::Scene scene;
-  scene::PunctualLight light;
-  light.type = scene::LightType::point;
-  light.position = Vec3(0, 2, 0);
-  light.intensity = Color(10, 5, 1);
+  scene::PunctualLight light = testing::point_light(Vec3(0, 2, 0), Color(10, 5, 1));
   light.range = 4.0f;
   scene.lights = {light};
   const LitScene point(std::move(scene));
@@ -212,8 +198,7 @@ TEST(DirectLightTest, TheTreeIsUnbiasedAndBeatsPowerByFar) {
   for (int i = 0; i < 2000; ++i) {
     const Vec3 centre(10.0f * random.uniform_float(), 10.0f * random.uniform_float(),
                       10.0f * random.uniform_float());
-    const float u = random.uniform_float();
-    const Basis basis(sample_uniform_sphere(Vec2(u, random.uniform_float())));
+    const Basis basis(sample_uniform_sphere(testing::next_2d(random)));
     triangles.push_back({centre, centre + 0.05f * basis.tangent, centre + 0.05f * basis.bitangent});
   }
   scene::Scene scene;

@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "renderer/render.h"
+#include "tests/support/materials.h"
 #include "tests/support/scene_builder.h"
 #include "tests/support/statistics.h"
 
@@ -34,10 +35,7 @@ struct Strip {
 /// A strip seen along +x through a prism whose edge is up.
 Strip strip(float dispersion, std::uint32_t seed) {
   SceneBuilder builder;
-  scene::Material glass;
-  glass.metallic = glass.roughness = 0.0f;
-  glass.transmission = glass.thickness = 1.0f;
-  glass.ior = kIor;
+  scene::Material glass = testing::solid_glass(kIor);
   glass.dispersion = dispersion;
   constexpr float kHeight = 2.0f;
   const float half = 2.0f * kHeight * std::tan(0.5f * kApex);

@@ -5,10 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <string>
 #include <vector>
 
 #include "renderer/render.h"
+#include "tests/support/materials.h"
 #include "tests/support/scene_builder.h"
 #include "tests/support/statistics.h"
 
@@ -49,10 +51,7 @@ SceneBuilder glossy_scene() {
     const Vec3 p(2.0f * std::cos(a), 0.3f + 0.02f * static_cast<float>(i), 2.0f * std::sin(a) - 0.5f);
     builder.box(crumb, p, p + Vec3::Constant(0.08f));
   }
-  scene::PunctualLight point;
-  point.position = Vec3(1.5f, 2.0f, 1.5f);
-  point.intensity = Color(0.6f, 0.6f, 1.2f);
-  builder.scene().lights = {point};
+  builder.scene().lights = {testing::point_light(Vec3(1.5f, 2.0f, 1.5f), Color(0.6f, 0.6f, 1.2f))};
   return builder;
 }
 
@@ -140,42 +139,30 @@ class Estimators : public ::testing::Test {
 };
 std::vector<Estimate>* Estimators::reference_ = nullptr;
 
-TEST_F(Estimators, NextEventEstimationWithoutMisAgrees) {
+TEST_F(Estimators, EveryWayToSampleAgrees) {
+  struct Way {
+    const char* name;
+    std::function<void(RenderOptions&)> choose;
+  };
+  const Way ways[] = {
+      {"next-event estimation without MIS", [](RenderOptions& o) { o.direct = DirectLight::nee; }},
+      {"BSDF sampling without MIS", [](RenderOptions& o) { o.direct = DirectLight::bsdf; }},
+      {"balance heuristic", [](RenderOptions& o) { o.mis = MisHeuristic::balance; }},
+      {"lights by power", [](RenderOptions& o) { o.light_selection = LightSelection::power; }},
+      {"lights by power without MIS",
+       [](RenderOptions& o) {
+         o.light_selection = LightSelection::power;
+         o.direct = DirectLight::nee;
+       }},
+      {"early roulette", [](RenderOptions& o) { o.min_depth = 1; }}};
   RenderOptions options = base_options();
-  options.seed = 1;
-  options.direct = DirectLight::nee;
-  expect_agreement(render(options), *reference_, kManySamples);
-}
-
-TEST_F(Estimators, BsdfSamplingWithoutMisAgrees) {
-  RenderOptions options = base_options();
-  options.seed = 2;
-  options.direct = DirectLight::bsdf;
-  expect_agreement(render(options), *reference_, kManySamples);
-}
-
-TEST_F(Estimators, BalanceAndPowerHeuristicAgree) {
-  RenderOptions options = base_options();
-  options.seed = 3;
-  options.mis = MisHeuristic::balance;
-  expect_agreement(render(options), *reference_, kManySamples);
-}
-
-TEST_F(Estimators, LightTreeAndPowerAgree) {
-  RenderOptions options = base_options();
-  options.seed = 4;
-  options.light_selection = LightSelection::power;
-  expect_agreement(render(options), *reference_, kManySamples);
-  options.seed = 5;
-  options.direct = DirectLight::nee;
-  expect_agreement(render(options), *reference_, kManySamples);
-}
-
-TEST_F(Estimators, RouletteChangesNoMean) {
-  RenderOptions options = base_options();
-  options.seed = 6;
-  options.min_depth = 1;
-  expect_agreement(render(options), *reference_, kManySamples);
+  for (const Way& way : ways) {
+    SCOPED_TRACE(way.name);
+    RenderOptions chosen = options;
+    way.choose(chosen);
+    chosen.seed = ++options.seed;
+    expect_agreement(render(chosen), *reference_, kManySamples);
+  }
 }
 
 TEST_F(Estimators, SobolAndIndependentSamplesAgree) {

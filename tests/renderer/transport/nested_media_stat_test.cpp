@@ -7,6 +7,7 @@
 #include "renderer/render.h"
 #include "renderer/transport/view_check.h"
 #include "renderer/transport/world.h"
+#include "tests/support/materials.h"
 #include "tests/support/picture_moments.h"
 #include "tests/support/scene_builder.h"
 #include "tests/support/shadow_rays.h"
@@ -43,9 +44,7 @@ struct Stack : SceneBuilder {
     options.camera.fov_degrees = 0.2f;
   }
   scene::Instance& slab(float ior, float low, float high, const Color& absorption = Color::Zero()) {
-    scene::Material m = clear_glass();
-    m.thickness = 1.0f;
-    m.ior = ior;
+    scene::Material m = testing::solid_glass(ior);
     m.attenuation_distance = 1.0f;
     m.attenuation_color = (-absorption).exp();
     // Wide ones: light that leaves by the sides is lost.
@@ -164,9 +163,7 @@ TEST(NestedMedia, LightSamplesAreDimmedInTheWater) {
   // A lamp and a sheet in tinted water, seen from within it: light samples and bounces agree.
   const auto seen = [](DirectLight direct) {
     SceneBuilder builder;
-    scene::Material water = SceneBuilder::clear_glass();
-    water.thickness = 1.0f;
-    water.ior = kWater;
+    scene::Material water = testing::solid_glass(kWater);
     water.attenuation_distance = 1.0f;
     water.attenuation_color = Color(0.3f, 0.6f, 0.9f);
     const auto body = [&](const Vec3& low, const Vec3& high) {
@@ -233,11 +230,7 @@ TEST(NestedMedia, BallsInAWhiteFurnaceAreInvisible) {
   for (const float roughness : {0.0f, 0.3f}) {
     SceneBuilder builder;
     const auto ball = [&](float ior, const Vec3& center, float radius) {
-      scene::Material m = SceneBuilder::clear_glass();
-      m.roughness = roughness;
-      m.thickness = 1.0f;
-      m.ior = ior;
-      builder.sphere(builder.material(m), center, radius, 48, true);
+      builder.sphere(builder.material(testing::solid_glass(ior, roughness)), center, radius, 48, true);
       builder.scene().instances.back().placement = static_cast<int>(builder.scene().instances.size());
     };
     ball(kWater, Vec3(0, 0, 0), 1.0f);

@@ -6,6 +6,8 @@
 #include <cmath>
 
 #include "renderer/render.h"
+#include "tests/support/light_scenes.h"
+#include "tests/support/materials.h"
 #include "tests/support/picture_moments.h"
 #include "tests/support/scene_builder.h"
 #include "tests/support/statistics.h"
@@ -71,18 +73,6 @@ TEST_P(DirectLightModes, DepthCountsScatteringEvents) {
   }
 }
 
-/// Irradiance at p with normal n from a polygon of unit radiance (Lambert's formula), wholly above the
-/// horizon.
-double polygon_irradiance(const Vec3& p, const Vec3& n, const std::vector<Vec3>& polygon) {
-  double sum = 0.0;
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const Eigen::Vector3d a = (polygon[i] - p).cast<double>().normalized();
-    const Eigen::Vector3d b = (polygon[(i + 1) % polygon.size()] - p).cast<double>().normalized();
-    sum += std::acos(a.dot(b)) * a.cross(b).normalized().dot(n.cast<double>());
-  }
-  return std::abs(sum) / 2.0;
-}
-
 TEST_P(DirectLightModes, QuadLightMatchesLambertsFormula) {
   SceneBuilder builder;
   const int matte = builder.material(SceneBuilder::lambert(Color::Constant(0.7f)));
@@ -90,9 +80,8 @@ TEST_P(DirectLightModes, QuadLightMatchesLambertsFormula) {
   builder.quad(matte, Vec3(-10, 0, 10), Vec3(20, 0, 0), Vec3(0, 0, -20));
   // The front looks down.
   builder.quad(lamp, Vec3(0.5f, 1.5f, -1), Vec3(1, 0, 0), Vec3(0, 0.5f, 2));
-  const double e = 5.0 * polygon_irradiance(Vec3(0, 0, 0), Vec3(0, 1, 0),
-                                            {Vec3(0.5f, 1.5f, -1), Vec3(1.5f, 1.5f, -1), Vec3(1.5f, 2, 1),
-                                             Vec3(0.5f, 2, 1)});
+  const auto lamp_triangles = testing::quad(Vec3(0.5f, 1.5f, -1), Vec3(1, 0, 0), Vec3(0, 0.5f, 2));
+  const double e = 5.0 * testing::triangles_irradiance(lamp_triangles, Vec3::Zero(), Vec3::UnitY());
   // The view is so narrow that every pixel sees the origin.
   RenderOptions options = looking(Vec3(-3, 3, 0), Vec3(0, 0, 0), 0.05f);
   options.direct = GetParam();
@@ -119,15 +108,10 @@ TEST(PathStat, SunPointAndSpotMatchTheClosedForms) {
   const int matte = builder.material(SceneBuilder::lambert(Color::Constant(0.5f)));
   builder.quad(matte, Vec3(-10, 0, 10), Vec3(20, 0, 0), Vec3(0, 0, -20));
   const RenderOptions options = looking(Vec3(-3, 3, 0), Vec3(0, 0, 0), 0.05f);
-  scene::PunctualLight light;
-  light.type = scene::LightType::directional;
-  light.intensity = Color::Constant(4.0f);
-  light.direction = Vec3(0.6f, -0.8f, 0.0f);
-  builder.scene().lights = {light};
+  builder.scene().lights = {testing::sun(Vec3(0.6f, -0.8f, 0.0f), Color::Constant(4.0f))};
   expect_radiance(builder.scene(), options, 0.5 / M_PI * 4.0 * 0.8, 1e-4);
 
-  light.type = scene::LightType::point;
-  light.position = Vec3(0, 2, 0);
+  scene::PunctualLight light = testing::point_light(Vec3(0, 2, 0), Color::Constant(4.0f));
   builder.scene().lights = {light};
   expect_radiance(builder.scene(), options, 0.5 / M_PI * 4.0 / 4.0, 1e-3);
 
@@ -157,12 +141,7 @@ TEST(PathStat, ConvexObjectUnderAConstantSkyShowsAlbedoTimesSky) {
 TEST(PathStat, VolumeAbsorbsByBeerLambert) {
   // ior 1: no reflection, no refraction. A slab 0.5 m thick, colour 0.25 after 1 m: half the light.
   SceneBuilder builder;
-  scene::Material m;
-  m.metallic = 0.0f;
-  m.roughness = 0.0f;
-  m.ior = 1.0f;
-  m.transmission = 1.0f;
-  m.thickness = 1.0f;
+  scene::Material m = testing::solid_glass(1.0f);
   m.attenuation_distance = 1.0f;
   m.attenuation_color = Color(0.25f, 1.0f, 0.25f);
   builder.box(builder.material(m), Vec3(-5, -5, -0.5f), Vec3(5, 5, 0));
@@ -183,11 +162,7 @@ TEST(PathStat, PanesPassTheSunToWhatIsBehindThem) {
   builder.quad(matte, Vec3(-10, 0, 10), Vec3(20, 0, 0), Vec3(0, 0, -20));
   scene::Material glass = SceneBuilder::clear_glass();
   builder.quad(builder.material(glass), Vec3(-1, 1, 1), Vec3(2, 0, 0), Vec3(0, 0, -2));
-  scene::PunctualLight light;
-  light.type = scene::LightType::directional;
-  light.intensity = Color::Constant(M_PI);
-  light.direction = Vec3(0, -1, 0);
-  builder.scene().lights = {light};
+  builder.scene().lights = {testing::sun(Vec3(0, -1, 0), Color::Constant(kPi))};
   RenderOptions options = looking(Vec3(-3, 0.5f, 0), Vec3(0, 0, 0), 0.05f);
   options.max_depth = 1;
   Renderer renderer(builder.scene(), options);

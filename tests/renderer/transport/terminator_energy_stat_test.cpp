@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "renderer/render.h"
+#include "tests/support/materials.h"
 #include "tests/support/picture_moments.h"
 #include "tests/support/scene_builder.h"
 #include "tests/support/statistics.h"
@@ -84,9 +85,7 @@ TEST(TerminatorEnergy, UnderANormalMapACoarseBallIsAsBrightAsAFineOne) {
 
 /// The brightest pixel of a closed black room with a sun and a sky outside.
 double leak(scene::Scene& room, const RenderOptions& inside) {
-  room.lights.push_back({.type = scene::LightType::directional,
-                         .intensity = Color::Constant(1000.0f),
-                         .direction = Vec3(-0.6f, -0.7f, -0.4f).normalized()});
+  room.lights.push_back(testing::sun(Vec3(-0.6f, -0.7f, -0.4f), Color::Constant(1000.0f)));
   RenderOptions options = inside;
   options.environment.constant = Color::Constant(100.0f);
   const Picture picture = Renderer(room, options).render();
@@ -118,9 +117,7 @@ TEST(TerminatorEnergy, ABallOnAFloorHardlyGetsLightFromBelowIt) {
       builder.quad(builder.material(SceneBuilder::lambert(Color::Zero())), Vec3(-50, 0, 50), Vec3(100, 0, 0),
                    Vec3(0, 0, -100));
     scene::Scene& s = builder.scene();
-    s.lights.push_back({.type = scene::LightType::directional,
-                        .intensity = Color::Ones(),
-                        .direction = Vec3(0.5f, 0.8f, 0).normalized()});
+    s.lights.push_back(testing::sun(Vec3(0.5f, 0.8f, 0)));
     RenderOptions options = looking(Vec3(0, 0.5f, 4), 40.0f);
     options.camera.look_at->target = Vec3(0, 0.5f, 0);
     options.max_depth = 1;

@@ -8,6 +8,7 @@
 
 #include "renderer/render.h"
 #include "renderer/transport/world.h"
+#include "tests/support/materials.h"
 #include "tests/support/picture_moments.h"
 #include "tests/support/scene_builder.h"
 #include "tests/support/shadow_rays.h"
@@ -22,9 +23,7 @@ using testing::SceneBuilder;
 
 /// Glass of index 1.5, tinted by a coloured inside.
 scene::Material green_glass(float roughness = 0.0f) {
-  scene::Material m = SceneBuilder::clear_glass();
-  m.roughness = roughness;
-  m.thickness = 1.0f;
+  scene::Material m = testing::solid_glass(1.5f, roughness);
   m.attenuation_distance = 0.5f;
   m.attenuation_color = Color(0.4f, 0.9f, 0.6f);
   return m;
@@ -65,11 +64,7 @@ TEST(UnrefractedGlass, TheSunReachesTheGroundUnderABlock) {
   SceneBuilder builder = block_of_glass();
   builder.quad(builder.material(SceneBuilder::lambert(Color::Constant(0.5f))), Vec3(-4, -4, -1),
                Vec3(8, 0, 0), Vec3(0, 8, 0));
-  scene::PunctualLight sun;
-  sun.type = scene::LightType::directional;
-  sun.direction = Vec3(0, 0, -1);
-  sun.intensity = Color::Ones();
-  builder.scene().lights = {sun};
+  builder.scene().lights = {testing::sun(Vec3(0, 0, -1))};
   RenderOptions options;
   options.width = options.height = 8;
   options.spp = 4;
@@ -149,9 +144,7 @@ TEST(UnrefractedGlass, LightSamplesBouncesAndBothAgreeInGlassFilledWithWater) {
 
 double white_ball(std::uint32_t seed) {
   SceneBuilder builder;
-  scene::Material clear = SceneBuilder::clear_glass();
-  clear.thickness = 1.0f;
-  builder.sphere(builder.material(clear), Vec3(0, 0, 0), 0.5f, 24, true);
+  builder.sphere(builder.material(testing::solid_glass()), Vec3(0, 0, 0), 0.5f, 24, true);
   builder.quad(builder.material(SceneBuilder::lambert(Color::Ones())), Vec3(-9, -0.6f, 9), Vec3(18, 0, 0),
                Vec3(0, 0, -18));
   RenderOptions options;
