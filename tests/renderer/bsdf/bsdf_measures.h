@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "renderer/bsdf/bsdf.h"
+#include "tests/renderer/bsdf/bsdf_cases.h"
 #include "tests/support/statistics.h"
 
 namespace gatelight::renderer {
@@ -42,6 +43,30 @@ inline Furnace furnace(const Bsdf& bsdf, testing::Random& random, int strata = 4
   }
   result.error = red.standard_error();
   return result;
+}
+
+/// Expects that the albedo is the reflectance in a furnace.
+inline void expect_albedo(const Bsdf& bsdf, const BsdfCase& c, float roughness, const Furnace& result) {
+  const bool refracts = c.material.transmission > 0.0f && !c.material.thin_walled;
+  double tolerance = (refracts && roughness > 0.0f ? 0.05 : 0.003) + 3.0 * result.error;
+  // The steps of the table of anisotropic lobes are coarse.
+  if (c.material.anisotropy > 0.0f) tolerance += 0.012;
+  if (c.material.iridescence > 0.0f) tolerance += 0.08;
+  for (int k = 0; k < 3; ++k) {
+    EXPECT_NEAR(result.mean[k], static_cast<double>(bsdf.albedo()[k]), tolerance) << "channel " << k;
+    EXPECT_GE(bsdf.albedo()[k], 0.0f);
+    EXPECT_LE(bsdf.albedo()[k], 1.0f);
+  }
+}
+
+/// The cases whose albedo is accurate: in denser media the split of tinted glass into reflection and
+/// transmission is coarse around the critical angle.
+inline std::vector<BsdfCase> cases_of_albedos() {
+  std::vector<BsdfCase> cases = colored_cases();
+  std::erase_if(cases, [](const BsdfCase& c) {
+    return c.material.transmission > 0.0f && !c.material.thin_walled && c.material.ior > 1.5f;
+  });
+  return cases;
 }
 
 inline constexpr int kThetas = 24;

@@ -17,7 +17,7 @@ namespace {
 
 using testing::Random;
 
-// Only deltas, between the lobes of the cases, everything.
+// Only deltas, between the lobes of the cases, everything: then the narrow part is the whole.
 constexpr std::array<float, 5> kThresholds{0.0f, 0.15f, 0.35f, 0.7f, 1.1f};
 constexpr std::array<float, 4> kPartRoughnesses{0.0f, 0.1f, 0.3f, 0.8f};
 
@@ -122,6 +122,7 @@ TEST(BsdfParts, WeightIsValueOverDensity) {
         const BsdfSample sample = draw(part, random);
         if (sample.delta || !(sample.pdf > 0.0f)) continue;
         const BsdfValue value = part.evaluate(sample.wi);
+        ASSERT_NEAR(sample.wi.norm(), 1.0f, 1e-5f);
         ASSERT_FLOAT_EQ(value.pdf, sample.pdf);
         for (int k = 0; k < 3; ++k) ASSERT_FLOAT_EQ(value.value[k], sample.weight[k] * sample.pdf);
         ASSERT_EQ(sample.transmitted, sample.wi.z() < 0.0f);

@@ -35,28 +35,6 @@ TEST(BsdfSampling, SamplesFollowTheDensity) {
   }
 }
 
-TEST(BsdfSampling, WeightIsValueOverDensity) {
-  Random random(11);
-  for (const BsdfCase& c : colored_cases()) {
-    for (const float roughness : {0.05f, 0.3f, 0.8f}) {
-      for (const float cosine : {1.0f, 0.3f, 0.02f}) {
-        SCOPED_TRACE(describe(c, roughness, cosine));
-        const Bsdf bsdf = flat_bsdf(c, roughness, incident(cosine));
-        for (int i = 0; i < 200; ++i) {
-          const BsdfSample sample =
-              bsdf.sample(random.uniform_float(), {random.uniform_float(), random.uniform_float()});
-          if (sample.delta || !(sample.pdf > 0.0f)) continue;
-          const BsdfValue value = bsdf.evaluate(sample.wi);
-          ASSERT_NEAR(sample.wi.norm(), 1.0f, 1e-5f);
-          ASSERT_FLOAT_EQ(value.pdf, sample.pdf);
-          for (int k = 0; k < 3; ++k) ASSERT_FLOAT_EQ(value.value[k], sample.weight[k] * sample.pdf);
-          ASSERT_EQ(sample.transmitted, sample.wi.z() < 0.0f);
-        }
-      }
-    }
-  }
-}
-
 TEST(BsdfSampling, EveryLobeIsSampledAtBothEndsOfItsShare) {
   // The largest number below one must not fall through to no lobe at all.
   const float last = 1.0f - 0x1p-24f;

@@ -9,6 +9,7 @@
 
 #include "renderer/cache/cache_session.h"
 #include "tests/renderer/cache/small_worlds.h"
+#include "tests/support/cached_state.h"
 #include "tests/support/statistics.h"
 
 namespace gatelight::renderer {
@@ -57,21 +58,6 @@ inline double mean_answer(CacheSession& session, const testing::ViewedWorld& vie
 
 inline bool same_bits(const std::vector<float>& a, const std::vector<float>& b) {
   return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(float)) == 0;
-}
-
-inline void expect_same_state(const CacheState& a, const CacheState& b) {
-  EXPECT_TRUE(same_bits(a.model.parameters, b.model.parameters));
-  EXPECT_TRUE(same_bits(a.model.averages, b.model.averages));
-  EXPECT_TRUE(same_bits(a.model.first_moments, b.model.first_moments));
-  EXPECT_TRUE(same_bits(a.model.second_moments, b.model.second_moments));
-  EXPECT_EQ(a.model, b.model);
-  EXPECT_EQ(a.steps, b.steps);
-  EXPECT_EQ(a.triangle_counts, b.triangle_counts);
-  EXPECT_EQ(a.guard, b.guard);
-  EXPECT_EQ(a.setup.sides, b.setup.sides);
-  EXPECT_EQ(a.setup.spacing_scales, b.setup.spacing_scales);
-  EXPECT_EQ(a.setup.target_scale, b.setup.target_scale);
-  EXPECT_EQ(a.setup.node_spacing, b.setup.node_spacing);
 }
 
 }  // namespace gatelight::renderer

@@ -1,4 +1,4 @@
-// Each point gives one record of openness, for any number of threads.
+// Each point gives one record of openness.
 
 #include "renderer/cache/occlusion_records.h"
 
@@ -15,7 +15,6 @@ namespace {
 using testing::SceneBuilder;
 using testing::view_from;
 using testing::ViewedWorld;
-using testing::with_threads;
 
 RecordBatch made(const ViewedWorld& viewed, const RenderOptions& options, const RecordRequest& request,
                  const StoredSurfaces& stored, float distance) {
@@ -73,26 +72,6 @@ TEST(OcclusionRecords, SurfacesWithoutStorageLeaveNone) {
   const RecordBatch batch = made(viewed, options, {.step = 2, .points = 768}, stored, 1.0f);
   ASSERT_GT(batch.records.size(), 30u);
   for (std::size_t i = 0; i < batch.records.size(); ++i) ASSERT_EQ(batch.records.surface(i), 2u);
-}
-
-TEST(OcclusionRecords, AnyNumberOfThreadsGivesTheSameBits) {
-  const ViewedWorld viewed(block());
-  RenderOptions options;
-  options.cache.samples_per_point = 3;
-  RecordBatch batches[3];
-  const int threads[] = {1, 2, 7};
-  for (std::size_t i = 0; i < 3; ++i) {
-    with_threads(threads[i], [&] {
-      batches[i] = made(viewed, options, {.step = 2, .points = 30000, .most_records = 10000}, {}, 1.0f);
-    });
-  }
-  ASSERT_EQ(batches[0].records.size(), 10000u);
-  for (const std::size_t i : {std::size_t{1}, std::size_t{2}}) {
-    EXPECT_EQ(batches[i].targets, batches[0].targets);
-    ASSERT_EQ(batches[i].records.size(), 10000u);
-    for (std::size_t r = 0; r < 10000; ++r)
-      ASSERT_EQ(batches[i].records.barycentrics(r), batches[0].records.barycentrics(r));
-  }
 }
 
 }  // namespace

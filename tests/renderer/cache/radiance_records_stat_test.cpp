@@ -6,7 +6,7 @@
 #include <cmath>
 #include <string>
 
-#include "renderer/cache/radiance_records.h"
+#include "tests/renderer/cache/made_records.h"
 #include "tests/renderer/cache/small_worlds.h"
 #include "tests/support/materials.h"
 #include "tests/support/statistics.h"
@@ -24,18 +24,11 @@ const double kRadianceSignificance = testing::sidak(1e-4, 40);
 /// One target a path: that of its record nearest to the camera.
 Moments first_targets(const ViewedWorld& viewed, const RenderOptions& options, std::size_t points,
                       bool self_training = false, float answer = 0.0f) {
-  const StoredSurfaces stored;
-  const CachedPaths paths(viewed.world, cached_paths_options(options), stored);
-  const TrainingPoints chosen(viewed.world, viewed.camera, viewed.region, options, {}, nullptr);
-  RadianceRecords records(paths, chosen, options, {});
-  RecordBatch batch;
-  const RecordRequest request{.step = 3, .points = points, .self_training = self_training};
-  records.trace(request, batch);
-  records.finish({[&](const SurfacePoints&, std::span<float> a) { std::fill(a.begin(), a.end(), answer); }},
-                 batch);
-  records.split(request, batch);
+  const MadeRecords made(
+      viewed, options, {.step = 3, .points = points, .self_training = self_training},
+      {[&](const SurfacePoints&, std::span<float> a) { std::fill(a.begin(), a.end(), answer); }});
   Moments moments;
-  for (const PathBatch& block : batch.paths) {
+  for (const PathBatch& block : made.batch.paths) {
     for (const std::int32_t record : block.first_records) {
       if (record != kNone)
         moments.add(static_cast<double>(block.targets[3 * static_cast<std::size_t>(record) + 1]));
@@ -82,20 +75,13 @@ TEST_P(RadianceRecordsStat, AveragedTargetsHaveTheSameMeanAndLessNoise) {
   RenderOptions options = deep();
   options.cache.component = GetParam();
   options.cache.path_length = 2;
-  const StoredSurfaces stored;
-  const CachedPaths paths(viewed.world, cached_paths_options(options), stored);
-  const TrainingPoints chosen(viewed.world, viewed.camera, viewed.region, options, {}, nullptr);
-  RadianceRecords records(paths, chosen, options, {});
   // Two scattering events: emission reflected once or twice.
   const double expected = GetParam() == CachedComponent::indirect ? 0.6 * 1.5 : 1.5 + 0.6 * 1.5;
   double variance[2];
   for (const std::size_t i : {std::size_t{0}, std::size_t{1}}) {
     options.cache.samples_per_point = i == 0 ? 1 : 8;
-    RecordBatch batch;
-    const RecordRequest request{.step = 4, .points = 1000};
-    records.trace(request, batch);
-    records.finish({}, batch);
-    records.split(request, batch);
+    const MadeRecords made(viewed, options, {.step = 4, .points = 1000});
+    const RecordBatch& batch = made.batch;
     // The averaged record of a point stands before its paths' others.
     Moments moments;
     std::size_t begin = 0;
@@ -234,21 +220,11 @@ TEST(RadianceRecordsOfGlass, RecordsBehindReflectionAndRefractionAreNotMixed) {
   options.cache.component = CachedComponent::all;
   options.cache.path_length = 2;  // the pane is no event, its reflection is one
   options.cache.samples_per_point = 8;
-  const StoredSurfaces stored;
-  const CachedPaths paths(viewed.world, cached_paths_options(options), stored);
-  const TrainingPoints chosen(viewed.world, viewed.camera, viewed.region, options, {}, nullptr);
-  RadianceRecords records(paths, chosen, options, {});
-  RecordBatch batch;
-  const RecordRequest request{.step = 4, .points = 400};
-  records.trace(request, batch);
-  records.finish({}, batch);
-  records.split(request, batch);
+  const MadeRecords made(viewed, options, {.step = 4, .points = 400});
   Moments at_dark;
   Moments at_bright;
-  for (std::size_t i = 0; i < batch.records.size(); ++i) {
-    const std::uint32_t instance = batch.records.surface(i) / 2;
-    (instance == 2 ? at_dark : at_bright).add(static_cast<double>(batch.targets[3 * i]));
-  }
+  for (std::size_t i = 0; i < made.batch.records.size(); ++i)
+    (made.instance(i) == 2 ? at_dark : at_bright).add(static_cast<double>(made.batch.targets[3 * i]));
   ASSERT_GT(at_dark.count(), 100u);
   ASSERT_GT(at_bright.count(), 100u);
   // The lamp does not reach the dark wall, which a path of two events cannot learn from the bright one.

@@ -8,6 +8,7 @@
 #include <map>
 #include <set>
 
+#include "tests/renderer/cache/made_records.h"
 #include "tests/renderer/cache/small_worlds.h"
 #include "tests/support/materials.h"
 
@@ -18,30 +19,6 @@ using testing::SceneBuilder;
 using testing::view_from;
 using testing::ViewedWorld;
 using testing::with_threads;
-
-PointInputs with_positions() {
-  PointInputs inputs;
-  inputs.positions = true;
-  return inputs;
-}
-
-/// The records of one request.
-struct Made {
-  Made(const ViewedWorld& viewed, const RenderOptions& options, const RecordRequest& request,
-       const AnswerPoints& answer = {}) {
-    const StoredSurfaces stored;
-    const CachedPaths paths(viewed.world, cached_paths_options(options), stored);
-    const std::vector<neural::Sides> sides(viewed.world.scene.instances.size(), neural::Sides::both);
-    const TrainingPoints points(viewed.world, viewed.camera, viewed.region, options, sides, nullptr);
-    RadianceRecords records(paths, points, options, with_positions());
-    records.trace(request, batch);
-    records.finish(answer, batch);
-    records.split(request, batch);
-  }
-  std::uint32_t instance(std::size_t i) const { return batch.records.surface(i) / 2; }
-
-  RecordBatch batch;
-};
 
 std::size_t queries_of(const RecordBatch& batch) {
   std::size_t sum = 0;
@@ -54,7 +31,8 @@ SceneBuilder room() {
   SceneBuilder builder;
   builder.box(builder.material(SceneBuilder::lambert(Color(0.7f, 0.6f, 0.5f))), Vec3(-2, 0, -2),
               Vec3(2, 3, 2), true);
-  builder.quad(builder.material(testing::mirror()), Vec3(-1.5f, 0.2f, -1.5f), Vec3(1.4f, 0, 0), Vec3(0, 2, 0));
+  builder.quad(builder.material(testing::mirror()), Vec3(-1.5f, 0.2f, -1.5f), Vec3(1.4f, 0, 0),
+               Vec3(0, 2, 0));
   builder.box(builder.material(SceneBuilder::lambert(Color::Zero(), Color::Constant(6.0f))),
               Vec3(0.2f, 0.4f, -1.5f), Vec3(1.2f, 1.4f, -0.8f));
   scene::Material pane = SceneBuilder::clear_glass();
@@ -66,7 +44,7 @@ SceneBuilder room() {
 TEST(RadianceRecords, DeltaAndBlackVerticesWriteNoRecords) {
   const ViewedWorld viewed(room());
   const RenderOptions options;
-  const Made made(viewed, options, {.step = 1, .points = 2000});
+  const MadeRecords made(viewed, options, {.step = 1, .points = 2000});
   ASSERT_GT(made.batch.records.size(), 2000u);
   std::map<std::uint32_t, int> met;
   for (std::size_t i = 0; i < made.batch.records.size(); ++i) ++met[made.instance(i)];
@@ -95,7 +73,7 @@ TEST(RadianceRecords, TheVertexOwnEmissionIsNotLearned) {
        {CachedComponent::all, CachedComponent::no_delta, CachedComponent::indirect}) {
     RenderOptions options;
     options.cache.component = holds;
-    const Made made(viewed, options, {.step = 1, .points = 500});
+    const MadeRecords made(viewed, options, {.step = 1, .points = 500});
     ASSERT_GT(made.batch.records.size(), 400u);
     for (const float t : made.batch.targets) ASSERT_EQ(t, 0.0f);
   }
@@ -104,10 +82,10 @@ TEST(RadianceRecords, TheVertexOwnEmissionIsNotLearned) {
 TEST(RadianceRecords, ExcessRecordsAreLeftOutEvenly) {
   const ViewedWorld viewed(room());
   const RenderOptions options;
-  const Made all(viewed, options, {.step = 1, .points = 1000});
+  const MadeRecords all(viewed, options, {.step = 1, .points = 1000});
   const std::size_t n = all.batch.records.size();
   for (const std::size_t most : {std::size_t{1}, std::size_t{777}, n / 2, n - 1, n, n + 1}) {
-    const Made some(viewed, options, {.step = 1, .points = 1000, .most_records = most});
+    const MadeRecords some(viewed, options, {.step = 1, .points = 1000, .most_records = most});
     ASSERT_EQ(some.batch.records.size(), std::min(most, n));
     ASSERT_EQ(some.batch.targets.size(), 3 * some.batch.records.size());
     // Each record is one of all, in their order, with its own target; the gaps are as equal as possible.
@@ -135,11 +113,11 @@ TEST(RadianceRecords, ExcessRecordsAreLeftOutEvenly) {
 TEST(RadianceRecords, BatchesShareTheRecordsInTurn) {
   const ViewedWorld viewed(room());
   const RenderOptions options;
-  const Made all(viewed, options, {.step = 1, .points = 1000});
+  const MadeRecords all(viewed, options, {.step = 1, .points = 1000});
   const std::size_t n = all.batch.records.size();
   for (const std::size_t most : {std::size_t{2}, std::size_t{301}, n, 2 * n}) {
-    const Made made(viewed, options, {.step = 1, .points = 1000, .most_records = most, .batches = 3});
-    const Made one(viewed, options, {.step = 1, .points = 1000, .most_records = most});
+    const MadeRecords made(viewed, options, {.step = 1, .points = 1000, .most_records = most, .batches = 3});
+    const MadeRecords one(viewed, options, {.step = 1, .points = 1000, .most_records = most});
     ASSERT_EQ(made.batch.records.size(), std::min(most, n));
     std::size_t seen = 0;
     for (std::size_t m = 0; m < 3; ++m) {
@@ -161,8 +139,8 @@ TEST(RadianceRecords, BatchesShareTheRecordsInTurn) {
 TEST(RadianceRecords, TargetsAreScaled) {
   const ViewedWorld viewed(room());
   const RenderOptions options;
-  const Made one(viewed, options, {.step = 1, .points = 300});
-  const Made four(viewed, options, {.step = 1, .points = 300, .target_scale = 4.0f});
+  const MadeRecords one(viewed, options, {.step = 1, .points = 300});
+  const MadeRecords four(viewed, options, {.step = 1, .points = 300, .target_scale = 4.0f});
   ASSERT_EQ(one.batch.targets.size(), four.batch.targets.size());
   for (std::size_t i = 0; i < one.batch.targets.size(); ++i)
     ASSERT_EQ(4.0f * one.batch.targets[i], four.batch.targets[i]);
@@ -179,7 +157,7 @@ TEST(RadianceRecords, ShortPathsEndAfterTheirRecordsAndSomeRunOn) {
     options.cache.self_training.vertices = vertices;
     for (const float fraction : {0.0f, 0.25f, 1.0f}) {
       options.cache.self_training.full_fraction = fraction;
-      const Made made(viewed, options, {.step = 1, .points = 400, .self_training = true}, zero);
+      const MadeRecords made(viewed, options, {.step = 1, .points = 400, .self_training = true}, zero);
       const auto paths = static_cast<double>(made.batch.paths_traced);
       std::size_t full = 0;
       for (const PathStart& s : made.batch.starts.starts) full += s.to_its_end ? 1 : 0;
@@ -197,7 +175,7 @@ TEST(RadianceRecords, PathsOfGivenLengthWriteARecordOnlyAtTheirFirstVertex) {
   options.min_depth = 64;
   for (const int length : {1, 4, 7}) {
     options.cache.path_length = length;
-    const Made made(viewed, options, {.step = 1, .points = 200});
+    const MadeRecords made(viewed, options, {.step = 1, .points = 200});
     EXPECT_EQ(made.batch.records.size(), made.batch.paths_traced);
   }
 }
@@ -209,7 +187,7 @@ TEST(RadianceRecords, SamplesOfAPointBecomeOneRecordAtThePoint) {
   options.min_depth = 64;
   for (const int times : {1, 8}) {
     options.cache.samples_per_point = times;
-    const Made made(viewed, options, {.step = 1, .points = 192});
+    const MadeRecords made(viewed, options, {.step = 1, .points = 192});
     const auto all_paths = 192 * static_cast<std::size_t>(times);
     EXPECT_EQ(made.batch.paths_traced, all_paths);
     EXPECT_EQ(made.batch.records.size(), 192u);
@@ -224,17 +202,10 @@ TEST(RadianceRecords, UnstoredSurfacesLeaveNoRecordsAndEndNoPaths) {
   const ViewedWorld viewed(testing::closed_furnace(0.5f, 1.0f));
   RenderOptions options;
   const StoredSurfaces stored(viewed.world.scene, std::vector<neural::Sides>{neural::Sides::none});
-  const CachedPaths paths(viewed.world, cached_paths_options(options), stored);
-  const TrainingPoints points(viewed.world, viewed.camera, viewed.region, options, {}, nullptr);
-  RadianceRecords records(paths, points, options, {});
-  RecordBatch batch;
-  const RecordRequest request{.step = 1, .points = 100, .self_training = true};
-  records.trace(request, batch);
-  records.finish({}, batch);
-  records.split(request, batch);
-  EXPECT_EQ(batch.records.size(), 0u);
-  EXPECT_EQ(queries_of(batch), 0u);
-  EXPECT_GT(records.rays().bounce, batch.paths_traced);
+  const MadeRecords made(viewed, options, {.step = 1, .points = 100, .self_training = true}, {}, stored);
+  EXPECT_EQ(made.batch.records.size(), 0u);
+  EXPECT_EQ(queries_of(made.batch), 0u);
+  EXPECT_GT(made.rays.bounce, made.batch.paths_traced);
 }
 
 TEST(RadianceRecords, AnyNumberOfThreadsGivesTheSameBits) {
@@ -253,7 +224,7 @@ TEST(RadianceRecords, AnyNumberOfThreadsGivesTheSameBits) {
   const int threads[] = {1, 2, 7, 7};
   for (std::size_t i = 0; i < 4; ++i) {
     with_threads(threads[i], [&] {
-      const Made made(viewed, options, request, {ask, i % 2 == 1});
+      const MadeRecords made(viewed, options, request, {ask, i % 2 == 1});
       targets[i] = made.batch.targets;
       const std::span<const neural::Float2> where = made.batch.records.batch().barycentrics;
       places[i].assign(where.begin(), where.end());
@@ -280,7 +251,7 @@ TEST(RadianceRecords, AReusedBatchHasTheResultsOfANewOne) {
     records.finish({}, used);
     records.split(request, used);
   }
-  const Made fresh(viewed, options, {.step = 300, .points = 300});
+  const MadeRecords fresh(viewed, options, {.step = 300, .points = 300});
   EXPECT_EQ(used.targets, fresh.batch.targets);
   EXPECT_EQ(used.records.size(), fresh.batch.records.size());
   EXPECT_EQ(used.paths_traced, fresh.batch.paths_traced);

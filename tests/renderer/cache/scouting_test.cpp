@@ -4,7 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include <bit>
 #include <cmath>
 
 #include "renderer/cache/scene_layout.h"
@@ -17,7 +16,6 @@ using neural::Sides;
 using testing::SceneBuilder;
 using testing::view_from;
 using testing::ViewedWorld;
-using testing::with_threads;
 
 RenderOptions nrc() {
   RenderOptions options;
@@ -196,27 +194,6 @@ TEST(Scouting, OptionsOfTrainingPointsDoNotMatter) {
   EXPECT_EQ(plain.node_spacing, other.node_spacing);
   EXPECT_EQ(plain.spacing_scales, other.spacing_scales);
   EXPECT_EQ(plain.target_scale, other.target_scale);
-}
-
-TEST(Scouting, AnyNumberOfThreadsGivesTheSameBits) {
-  const ViewedWorld viewed(rooms());
-  for (const Integrator integrator : {Integrator::nrc, Integrator::nao}) {
-    RenderOptions options;
-    options.integrator = integrator;
-    std::vector<std::uint32_t> bits[3];
-    const int threads[] = {1, 2, 7};
-    for (std::size_t i = 0; i < 3; ++i) {
-      with_threads(threads[i], [&] {
-        const CacheSetup s = scouted(viewed, options).setup;
-        for (const float f : {s.node_spacing, s.target_scale, s.records_per_path, s.records_per_short_path})
-          bits[i].push_back(std::bit_cast<std::uint32_t>(f));
-        for (const float f : s.spacing_scales) bits[i].push_back(std::bit_cast<std::uint32_t>(f));
-        for (const Sides side : s.sides) bits[i].push_back(static_cast<std::uint32_t>(side));
-      });
-    }
-    EXPECT_EQ(bits[0], bits[1]);
-    EXPECT_EQ(bits[0], bits[2]);
-  }
 }
 
 TEST(Scouting, ScenesWithoutVisibleSurfacesHaveAValidSetup) {

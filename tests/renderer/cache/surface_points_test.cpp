@@ -106,15 +106,5 @@ TEST(SurfacePoints, RangesAreCopiedToTheirDestinations) {
   for (std::size_t i = 0; i < 5; ++i) expect_point(batch, i, expected[i]);
 }
 
-TEST(SurfacePoints, AfterClearingTheNextPointIsTheFirst) {
-  SurfacePoints points(everything());
-  for (int i = 0; i < 4; ++i) push(points, i);
-  points.clear();
-  EXPECT_EQ(points.size(), 0u);
-  push(points, 2);
-  ASSERT_EQ(points.batch().size, 1u);
-  expect_point(points.batch(), 0, 2);
-}
-
 }  // namespace
 }  // namespace gatelight::renderer

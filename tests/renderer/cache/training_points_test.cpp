@@ -3,8 +3,6 @@
 #include "renderer/cache/training_points.h"
 
 #include <gtest/gtest.h>
-#include <tbb/global_control.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <bit>
@@ -202,20 +200,6 @@ TEST(TrainingPoints, EqualStepsAreEqualAndOthersAreNot) {
     EXPECT_EQ(seeds.size(), made) << "each start of each step has a seed of its own";
     options.seed = 1;
     EXPECT_NE(bits_of(choose(walls, options, 3, 64)), first);
-  }
-}
-
-TEST(TrainingPoints, AnyNumberOfThreadsGivesTheSameBits) {
-  const TwoWalls walls;
-  const tbb::global_control control(tbb::global_control::max_allowed_parallelism, 3);
-  for (const TrainingSource source : {TrainingSource::camera, TrainingSource::surface}) {
-    RenderOptions options;
-    options.cache.source = source;
-    options.cache.samples_per_point = 2;
-    std::vector<std::uint32_t> bits[2];
-    tbb::task_arena(1).execute([&] { bits[0] = bits_of(choose(walls, options, 9, 30000)); });
-    tbb::task_arena(3).execute([&] { bits[1] = bits_of(choose(walls, options, 9, 30000)); });
-    EXPECT_EQ(bits[0], bits[1]);
   }
 }
 

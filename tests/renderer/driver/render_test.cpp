@@ -10,6 +10,7 @@
 #include <atomic>
 
 #include "base/errors.h"
+#include "tests/renderer/image/kinds_of_pictures.h"
 #include "tests/support/messages.h"
 #include "tests/support/room.h"
 
@@ -20,43 +21,23 @@ namespace {
 using testing::room;
 using testing::small_picture;
 
-TEST(Render, AnyNumberOfThreadsGivesTheSameBits) {
+TEST(Render, AnyNumberOfThreadsGivesTheSameBitsAndCountsRaysOnce) {
   const scene::Scene s = room();
   RenderOptions options = small_picture();
-  for (Integrator integrator : {Integrator::path, Integrator::ao}) {
+  for (const Integrator integrator : {Integrator::path, Integrator::ao}) {
     options.integrator = integrator;
     options.threads = 1;
-    const Picture one = Renderer(s, options).render();
-    for (int threads : {2, 7}) {
-      options.threads = threads;
-      const Picture other = Renderer(s, options).render();
-      for (std::size_t i = 0; i < one.layers.size(); ++i) {
-        EXPECT_EQ(one.layers[i].values, other.layers[i].values)
-            << threads << " threads, layer " << one.layers[i].name;
-      }
-    }
-  }
-}
-
-TEST(Render, RaysAreCountedOnceWhateverThreadTracesThem) {
-  const scene::Scene s = room();
-  RenderOptions options = small_picture();
-  const auto rays = [&](Integrator integrator, int threads) {
-    options.integrator = integrator;
-    options.threads = threads;
     Renderer renderer(s, options);
-    renderer.render();
-    return renderer.statistics().rays;
-  };
-  for (const Integrator integrator : {Integrator::path, Integrator::ao}) {
-    const RayCounts one = rays(integrator, 1);
-    const RayCounts three = rays(integrator, 3);
-    EXPECT_EQ(one.camera, 50u * 40u * 6u);
-    EXPECT_EQ(three.camera, one.camera);
-    EXPECT_EQ(three.bounce, one.bounce);
-    EXPECT_EQ(three.shadow, one.shadow);
-    EXPECT_EQ(one.bounce > 0, integrator == Integrator::path);
-    EXPECT_GT(one.shadow, 0u);
+    const Picture one = renderer.render();
+    const RayCounts rays = renderer.statistics().rays;
+    EXPECT_EQ(rays.camera, 50u * 40u * 6u);
+    EXPECT_EQ(rays.bounce > 0, integrator == Integrator::path);
+    EXPECT_GT(rays.shadow, 0u);
+    for (const int threads : {2, 7}) {
+      options.threads = threads;
+      Renderer other(s, options);
+      kinds::expect_same({other.render(), other.statistics()}, {one, renderer.statistics()});
+    }
   }
 }
 

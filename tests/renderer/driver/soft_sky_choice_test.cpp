@@ -1,15 +1,11 @@
 // Whether a soft sky lights scenes that glow: what a person expects, in any run.
-// GATELIGHT_SKY_PICTURES=FOLDER keeps pictures of the table's scenes, with the sky and without.
 
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdlib>
+#include <cmath>
 #include <string>
 
-#include "renderer/image/auto_exposure.h"
-#include "renderer/image/image_write.h"
 #include "renderer/render.h"
 #include "tests/renderer/driver/glowing_scenes.h"
 #include "tests/support/messages.h"
@@ -32,24 +28,12 @@ RenderOptions options_of(const GlowingScene& row) {
   return options;
 }
 
-void keep_pictures(const std::string& folder, const GlowingScene& row, Renderer& renderer) {
-  for (const bool sky : {true, false}) {
-    renderer.keep_soft_sky(sky);
-    renderer.set_camera(options_of(row).camera);
-    const Picture picture = renderer.render();
-    write_image(picture, fmt::format("{}/{}.{}.png", folder, row.name, sky ? "sky" : "none"),
-                {.display = {.exposure = auto_exposure(picture), .tonemap = Tonemap::agx}});
-  }
-}
-
 TEST(SoftSkyChoice, IsWhatAPersonExpects) {
-  const char* const folder = std::getenv("GATELIGHT_SKY_PICTURES");
   for (const GlowingScene& row : tests::glowing_scenes()) {
     GlowingSet set;
     row.build(set);
     Renderer renderer(set.scene(), options_of(row));
     EXPECT_EQ(renderer.soft_sky(), row.sky) << row.name;
-    if (folder) keep_pictures(folder, row, renderer);
   }
 }
 

@@ -97,7 +97,7 @@ TEST(Display, HdrKeepsTheRadiance) {
 
 TEST(Display, EqualPicturesAreEqualFiles) {
   const TemporaryFolder folder;
-  for (const char* extension : {"png", "jpg", "tif", "hdr"}) {
+  for (const char* extension : {"exr", "png", "jpg", "tif", "hdr"}) {
     const auto name = [&](const char* stem) { return folder / (std::string(stem) + "." + extension); };
     write_image(gradient(false), name("a"), {.bits = 16});
     write_image(gradient(false), name("b"), {.bits = 16});

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "renderer/image/auto_exposure.h"
+#include "tests/support/rgb_pictures.h"
 
 namespace gatelight::renderer {
 
@@ -40,6 +41,8 @@ TEST_P(Curves, NonFiniteAndNegativeValuesStayInTheScreensRange) {
     EXPECT_GE(shown.minCoeff(), 0.0f);
     EXPECT_LE(shown.maxCoeff(), 1.0f);
   }
+  EXPECT_EQ(filmic(infinite), 1.0f);
+  EXPECT_EQ(filmic(nan), 0.0f);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, Curves,
@@ -76,11 +79,9 @@ TEST(MiddleGrey, IsShownNearTheMiddle) {
 }
 
 Picture of(const std::vector<float>& greys) {
-  Picture picture{.width = static_cast<int>(greys.size()), .height = 1};
-  Layer beauty{.channels = {"R", "G", "B"}};
-  for (const float grey : greys) beauty.values.insert(beauty.values.end(), 3, grey);
-  picture.layers.push_back(beauty);
-  return picture;
+  std::vector<float> values;
+  for (const float grey : greys) values.insert(values.end(), 3, grey);
+  return testing::rgb(static_cast<int>(greys.size()), 1, std::move(values));
 }
 
 TEST(AutoExposure, BringsTheLogAverageToMiddleGrey) {

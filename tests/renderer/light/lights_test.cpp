@@ -164,8 +164,7 @@ TEST(LightsTest, EmissionTextureAndAlphaShapeTheLight) {
     int dark = 0;
     for (int i = 0; i < 400; ++i) {
       const Vec3 p(0.5f, 0, 0.5f);
-      const LightSample sample =
-          testing::draw_light(lit.lights, p, Vec3::UnitY(), random);
+      const LightSample sample = testing::draw_light(lit.lights, p, Vec3::UnitY(), random);
       ASSERT_GT(sample.pdf, 0.0f);
       const float x = (p + sample.distance * sample.wi).x();
       if (std::abs(x - 0.5f) < 0.07f) continue;  // within the filter's reach

@@ -6,6 +6,7 @@
 
 #include "renderer/metrics/compare.h"
 #include "renderer/metrics/merge.h"
+#include "tests/support/rgb_pictures.h"
 #include "tests/support/statistics.h"
 
 namespace gatelight::renderer {
@@ -15,6 +16,7 @@ using gatelight::testing::mean_p_value;
 using gatelight::testing::Moments;
 using gatelight::testing::Random;
 using gatelight::testing::sidak;
+using gatelight::testing::uniform;
 
 constexpr int kSize = 40;
 constexpr int kRuns = 60;
@@ -90,15 +92,11 @@ TEST(SquaredBias, WithoutNoiseItIsTheRelativeError) {
 }
 
 TEST(SquaredBias, PixelsThatAreNotFiniteAreLeftOutAndSizesMustAgree) {
-  Picture one{.width = 2, .height = 1};
-  one.layers = {{.channels = {"R", "G", "B"}, .values = {1, 1, 1, 1, 1, 1}}};
-  Picture two = one;
-  two.layers[0].values = {2, 2, 2, 2, 2, 2};
+  const Picture one = uniform(2, 1, {1, 1, 1}), two = uniform(2, 1, {2, 2, 2});
   Picture broken = two;
   broken.layers[0].values[4] = std::nanf("");
   EXPECT_NEAR(squared_bias({{one, "r"}, {one, "r"}}, {{two, "t"}, {broken, "t"}}), 1.0 / 1.01, 1e-12);
-  Picture narrow{.width = 1, .height = 1};
-  narrow.layers = {{.channels = {"R", "G", "B"}, .values = {1, 1, 1}}};
+  const Picture narrow = uniform(1, 1, {1, 1, 1});
   EXPECT_THROW(squared_bias({{one, "r"}, {one, "r"}}, {{two, "t"}, {narrow, "t"}}), InputError);
 }
 

@@ -44,22 +44,25 @@ void expect_papers(const RenderOptions& options) {
   EXPECT_EQ(cache.hash_grid.base_resolution, 2u);
 }
 
-TEST(Presets, PaperNaoIsThePapersOcclusion) {
-  RenderOptions options;
-  apply_preset(CachePreset::paper_nao, options);
-  EXPECT_EQ(options.integrator, Integrator::nao);
-  expect_papers(options);
-  EXPECT_EQ(options.cache.gate.features, 2u);
-  EXPECT_EQ(options.cache.train_steps, 128);
-}
-
-TEST(Presets, PaperNrcIsThePapersRadiance) {
-  RenderOptions options;
-  apply_preset(CachePreset::paper_nrc, options);
-  EXPECT_EQ(options.integrator, Integrator::nrc);
-  expect_papers(options);
-  EXPECT_EQ(options.cache.gate.features, 8u);
-  EXPECT_EQ(options.cache.train_steps, 1024);
+TEST(Presets, ThePapersAreTheirExperiments) {
+  struct Paper {
+    CachePreset preset;
+    Integrator integrator;
+    std::uint32_t features;
+    int train_steps;
+  };
+  for (const Paper& paper : {Paper{CachePreset::paper_nao, Integrator::nao, 2, 128},
+                             Paper{CachePreset::paper_nrc, Integrator::nrc, 8, 1024}}) {
+    RenderOptions options;
+    options.cache.samples_per_point = 7;
+    options.cache.cache_in = "learned by other rules";
+    apply_preset(paper.preset, options);
+    EXPECT_EQ(options.integrator, paper.integrator);
+    expect_papers(options);
+    EXPECT_EQ(options.cache.gate.features, paper.features);
+    EXPECT_EQ(options.cache.train_steps, paper.train_steps);
+    EXPECT_EQ(options.cache.cache_in, "") << "all options of the cache are replaced";
+  }
 }
 
 TEST(Presets, BareQueriesAtTheFirstVertexAndShowsTheAnswers) {
@@ -99,24 +102,9 @@ TEST(Presets, FramesHaveThreeQuartersOfTheSamples) {
   EXPECT_EQ(frames.denoise.prefilter, Prefilter::fast);
   apply_preset_of_frames(CachePreset::final, frames);
   EXPECT_EQ(frames.spp, 36);
-}
-
-TEST(Presets, ThePapersAreTheSameForFrames) {
-  RenderOptions still, frames;
   apply_preset(CachePreset::paper_nrc, still);
   apply_preset_of_frames(CachePreset::paper_nrc, frames);
-  EXPECT_EQ(frames.spp, still.spp);
-}
-
-TEST(Presets, ThePapersReplaceAllOptionsOfTheCache) {
-  for (const CachePreset preset : {CachePreset::paper_nao, CachePreset::paper_nrc}) {
-    RenderOptions options;
-    options.cache.samples_per_point = 7;
-    options.cache.cache_in = "learned by other rules";
-    apply_preset(preset, options);
-    EXPECT_EQ(options.cache.samples_per_point, CacheOptions().samples_per_point);
-    EXPECT_EQ(options.cache.cache_in, "");
-  }
+  EXPECT_EQ(frames.spp, still.spp) << "of a paper they are the same";
 }
 
 TEST(Presets, OtherOptionsStay) {

@@ -83,8 +83,7 @@ void add_pictures(const std::string& path, const scene::LoadOptions& load, int s
   renderer.begin_frames(*load.time);
   for (int seed = 0; seed < kSeeds; ++seed) {
     const Picture picture = renderer.render_frame(first_seed + seed);
-    for (const std::string& layer : layers)
-      blocks.add(layer, seed, means_of_blocks(picture, layer), weight);
+    for (const std::string& layer : layers) blocks.add(layer, seed, means_of_blocks(picture, layer), weight);
   }
 }
 
