@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "renderer/denoise/denoiser.h"
+#include "renderer/denoise/exposure.h"
 
 namespace gatelight::testing {
 
@@ -40,6 +41,13 @@ inline renderer::NoisyImage noisy_image(int width, int height, unsigned seed = 1
     }
   }
   return image;
+}
+
+/// Reads rows of a plane, which must outlive the result.
+inline renderer::ReadRows rows_of(const std::vector<float>& plane, int width, int channels = 3) {
+  return [&plane, row = static_cast<std::ptrdiff_t>(width) * channels](int first, int end) {
+    return std::vector<float>(plane.begin() + first * row, plane.begin() + end * row);
+  };
 }
 
 /// The root of the mean square of the difference.

@@ -1,6 +1,7 @@
 #pragma once
 // The materials that the tests of the BSDF go through: every lobe, and mixtures.
 
+#include <array>
 #include <cmath>
 #include <ostream>
 #include <string>
@@ -197,6 +198,11 @@ inline Bsdf flat_bsdf(const BsdfCase& c, float roughness, const Vec3& wo) {
   material.roughness = roughness;
   const Vec3 n = Vec3::UnitZ();
   return Bsdf(material, n, n, n, wo, c.front);
+}
+
+/// The wide and the narrow part of a surface.
+inline std::array<Bsdf, 2> parts(const Bsdf& whole, float roughness) {
+  return {whole.wide_part(roughness), whole.narrow_part(roughness)};
 }
 
 inline std::string describe(const BsdfCase& c, float roughness, float cosine) {

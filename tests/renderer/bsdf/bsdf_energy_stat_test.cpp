@@ -52,6 +52,21 @@ TEST(BsdfFurnace, AlbedoIsTheReflectanceInAFurnace) {
   }
 }
 
+TEST(BsdfFurnace, AlbedoOfAPartIsItsReflectanceInAFurnace) {
+  Random random(1);
+  for (const BsdfCase& c : cases_of_albedos()) {
+    for (const float roughness : {0.0f, 0.15f, 0.5f}) {
+      for (const float cosine : {0.9f, 0.3f, 0.05f}) {
+        SCOPED_TRACE(describe(c, roughness, cosine));
+        for (const float threshold : {0.0f, 0.3f}) {
+          for (const Bsdf& part : parts(flat_bsdf(c, roughness, incident(cosine)), threshold))
+            expect_albedo(part, c, roughness, furnace(part, random, 20));
+        }
+      }
+    }
+  }
+}
+
 TEST(BsdfFurnace, BlackSurfacesReturnOnlyTheSpecularPart) {
   Random random(5);
   SurfaceMaterial material;

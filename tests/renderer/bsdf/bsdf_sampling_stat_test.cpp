@@ -35,6 +35,29 @@ TEST(BsdfSampling, SamplesFollowTheDensity) {
   }
 }
 
+TEST(BsdfSampling, SamplesOfPartsFollowTheDensity) {
+  std::vector<BsdfCase> cases = colored_cases();
+  std::erase_if(cases, [](const BsdfCase& c) {
+    return c.name != "half metal" && c.name != "thin" && c.name != "half glass" && c.name != "coat" &&
+           c.name != "rough sheen under coat";
+  });
+  ASSERT_EQ(cases.size(), 5u);
+  Random random(2);
+  const double significance = testing::sidak(1e-4, cases.size() * 2 * 2 * 2);
+  for (const BsdfCase& c : cases) {
+    for (const float roughness : {0.3f, 0.7f}) {
+      for (const float cosine : {0.8f, 0.1f}) {
+        // A threshold of 0.45 separates the base's microfacets, or the coat, from the rest.
+        for (const Bsdf& part : parts(flat_bsdf(c, roughness, incident(cosine)), 0.45f)) {
+          SCOPED_TRACE(describe(c, roughness, cosine));
+          EXPECT_TRUE(
+              testing::accepts(samples_against_density(part, 4, 30000, c.symmetric(), random), significance));
+        }
+      }
+    }
+  }
+}
+
 TEST(BsdfSampling, EveryLobeIsSampledAtBothEndsOfItsShare) {
   // The largest number below one must not fall through to no lobe at all.
   const float last = 1.0f - 0x1p-24f;

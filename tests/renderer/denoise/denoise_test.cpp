@@ -17,12 +17,7 @@ namespace {
 using testing::clean_image;
 using testing::deviation;
 using testing::noisy_image;
-
-ReadRows rows_of(const std::vector<float>& plane, int width, int channels = 3) {
-  return [&plane, row = static_cast<std::ptrdiff_t>(width) * channels](int first, int end) {
-    return std::vector<float>(plane.begin() + first * row, plane.begin() + end * row);
-  };
-}
+using testing::rows_of;
 
 NoisyPicture picture_of(const NoisyImage& image) {
   return {image.width, image.height, rows_of(image.color, image.width), rows_of(image.albedo, image.width),

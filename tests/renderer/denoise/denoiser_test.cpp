@@ -55,10 +55,7 @@ TEST_F(Denoisers, DoNotDependOnTheUnitOfLight) {
   const auto scaled = [&](float unit) {
     NoisyImage image = noisy;
     for (float& value : image.color) value *= unit;
-    const float scale = exposure_of(image.width, image.height, [&](int first, int end) {
-      const auto row = static_cast<std::ptrdiff_t>(3 * image.width);
-      return std::vector<float>(image.color.begin() + first * row, image.color.begin() + end * row);
-    });
+    const float scale = exposure_of(image.width, image.height, testing::rows_of(image.color, image.width));
     image = filtered(image, {.scale = scale});
     for (float& value : image.color) value /= unit;
     return image.color;

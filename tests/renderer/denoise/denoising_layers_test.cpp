@@ -13,13 +13,8 @@ namespace gatelight::renderer {
 namespace {
 
 using testing::noisy_image;
+using testing::rows_of;
 using tests::expect_refusal;
-
-ReadRows plane_rows(const std::vector<float>& plane, int width, int channels) {
-  return [&plane, row = static_cast<std::ptrdiff_t>(width) * channels](int first, int end) {
-    return std::vector<float>(plane.begin() + first * row, plane.begin() + end * row);
-  };
-}
 
 Picture picture_with(std::initializer_list<const char*> layers) {
   Picture picture{.width = 2, .height = 1};
@@ -42,10 +37,10 @@ TEST(DenoisingLayers, ComeBackToTheBitAtAnySize) {
     picture.layers.push_back({.channels = {"R", "G", "B"}, .values = std::vector<float>(3 * 24, 9.0f)});
     const NoisyPicture samples{image.width,
                                image.height,
-                               plane_rows(image.color, image.width, 3),
-                               plane_rows(image.albedo, image.width, 3),
-                               plane_rows(image.normal, image.width, 3),
-                               plane_rows(alpha, image.width, 1)};
+                               rows_of(image.color, image.width, 3),
+                               rows_of(image.albedo, image.width, 3),
+                               rows_of(image.normal, image.width, 3),
+                               rows_of(alpha, image.width, 1)};
     add_denoising_layers(picture, samples, factor);
     ASSERT_EQ(picture.layers.size(), 1u + 4u * static_cast<unsigned>(factor * factor));
     for (std::size_t i = 1; i < picture.layers.size(); ++i) {
@@ -61,7 +56,7 @@ TEST(DenoisingLayers, ComeBackToTheBitAtAnySize) {
     EXPECT_EQ(read.albedo, image.albedo);
     EXPECT_EQ(read.normal, image.normal);
     EXPECT_EQ(read.alpha, alpha);
-    EXPECT_EQ(read.noisy().color(1, 3), plane_rows(image.color, image.width, 3)(1, 3));
+    EXPECT_EQ(read.noisy().color(1, 3), rows_of(image.color, image.width, 3)(1, 3));
   }
 }
 

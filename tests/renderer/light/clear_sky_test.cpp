@@ -11,6 +11,7 @@
 #include "renderer/light/sun_disc.h"
 #include "tests/support/light_scenes.h"
 #include "tests/support/messages.h"
+#include "tests/support/sphere_integral.h"
 #include "tests/support/statistics.h"
 
 namespace gatelight::renderer {
@@ -129,17 +130,10 @@ Color integrate(const Environment& environment, const SkyOptions& options, const
   plain.sky = without;
   const Environment picture(plain);
   Eigen::Array3d sum = Eigen::Array3d::Zero();
-  constexpr int kRows = 1024, kColumns = 2048;
-  for (int y = 0; y < kRows; ++y) {
-    const double theta = M_PI * (y + 0.5) / kRows;
-    for (int x = 0; x < kColumns; ++x) {
-      const double phi = 2.0 * M_PI * (x + 0.5) / kColumns;
-      const Vec3 d(static_cast<float>(std::sin(theta) * std::cos(phi)), static_cast<float>(std::cos(theta)),
-                   static_cast<float>(std::sin(theta) * std::sin(phi)));
-      const double weight = std::sin(theta) * (M_PI / kRows) * (2.0 * M_PI / kColumns);
-      sum += picture.radiance(d).cast<double>() * (weight * static_cast<double>(std::max(0.0f, n.dot(d))));
-    }
-  }
+  testing::each_direction(1024, [&](const Vec3& d, double solid_angle) {
+    const double cosine = static_cast<double>(std::max(0.0f, n.dot(d)));
+    sum += picture.radiance(d).cast<double>() * (solid_angle * cosine);
+  });
   const Vec3 to_sun = towards(options.sun_azimuth_degrees, options.sun_elevation_degrees);
   const std::optional<DistantSun>& sun = picture.distant_sun();
   EXPECT_TRUE(sun && sun->direction.isApprox(to_sun, 1e-5f));
@@ -189,17 +183,9 @@ TEST(ClearSky, ADensityIsThatOfItsSamplesAndIntegratesToOne) {
     }
     EXPECT_LT(others, 10);
     double sum = 0.0;
-    constexpr int kRows = 1024, kColumns = 2048;
-    for (int y = 0; y < kRows; ++y) {
-      const double theta = M_PI * (y + 0.5) / kRows;
-      for (int x = 0; x < kColumns; ++x) {
-        const double phi = 2.0 * M_PI * (x + 0.5) / kColumns;
-        const Vec3 d(static_cast<float>(std::sin(theta) * std::cos(phi)), static_cast<float>(std::cos(theta)),
-                     static_cast<float>(std::sin(theta) * std::sin(phi)));
-        sum += static_cast<double>(environment.pdf(d, n)) * std::sin(theta) * (M_PI / kRows) *
-               (2.0 * M_PI / kColumns);
-      }
-    }
+    testing::each_direction(1024, [&](const Vec3& d, double solid_angle) {
+      sum += static_cast<double>(environment.pdf(d, n)) * solid_angle;
+    });
     EXPECT_NEAR(sum, 1.0, 2e-3) << n.transpose();
   }
 }

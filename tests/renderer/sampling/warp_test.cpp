@@ -47,19 +47,14 @@ void expect_directions_follow(Sample&& sample, Pdf&& pdf, double z0, std::uint64
                                testing::sidak(testing::kFamilySignificance, 8)));
 }
 
-TEST(WarpTest, CosineHemisphereFollowsItsDensity) {
-  expect_directions_follow([](const Vec2& u) { return sample_cosine_hemisphere(u); },
-                           [](double z) { return pdf_cosine_hemisphere(static_cast<float>(z)); }, 0.0, 1);
-}
-
-TEST(WarpTest, UniformHemisphereFollowsItsDensity) {
-  expect_directions_follow([](const Vec2& u) { return sample_uniform_hemisphere(u); },
-                           [](double) { return pdf_uniform_hemisphere(); }, 0.0, 2);
-}
-
-TEST(WarpTest, UniformSphereFollowsItsDensity) {
-  expect_directions_follow([](const Vec2& u) { return sample_uniform_sphere(u); },
-                           [](double) { return pdf_uniform_sphere(); }, -1.0, 3);
+TEST(WarpTest, DirectionsFollowTheirDensity) {
+  expect_directions_follow(
+      sample_cosine_hemisphere, [](double z) { return pdf_cosine_hemisphere(static_cast<float>(z)); }, 0.0,
+      1);
+  expect_directions_follow(
+      sample_uniform_hemisphere, [](double) { return pdf_uniform_hemisphere(); }, 0.0, 2);
+  expect_directions_follow(
+      sample_uniform_sphere, [](double) { return pdf_uniform_sphere(); }, -1.0, 3);
 }
 
 TEST(WarpTest, ConcentricDiskIsUniform) {

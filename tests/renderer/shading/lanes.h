@@ -85,6 +85,11 @@ inline const std::vector<std::pair<std::string, const ShadingKernels*>>& all_ker
   return kernels;
 }
 
+/// Light samples and bounces combined, by the fastest kernels.
+inline Shading make_shading(const Lights& lights, const LightArrays& arrays) {
+  return {lights, arrays, choose_shading_kernels("auto"), true, DirectLight::mis, MisHeuristic::power};
+}
+
 inline ShadingContext tables_only() {
   ShadingContext context;
   context.tables = {GgxTables::get().values(), GgxTables::get().means(), SheenTables::get().values()};

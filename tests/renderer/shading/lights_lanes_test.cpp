@@ -77,8 +77,7 @@ Agreement compare(const LitScene& lit, std::uint64_t seed, SamplerKind kind = Sa
     context.lights = delta ? arrays.delta_view() : *arrays.view();
     run_all(block, context, &ShadingKernels::sample_lights);
     // The whole sampling also completes the lanes that the kernels leave open.
-    const Shading shading(lit.lights, arrays, choose_shading_kernels("auto"), true, DirectLight::mis,
-                          MisHeuristic::power);
+    const Shading shading = make_shading(lit.lights, arrays);
     SurfaceBlock surfaces{block, {}};
     delta ? shading.delta_light(surfaces) : shading.scatter(surfaces);
     const ShadingBlock& result = surfaces.points;
@@ -208,8 +207,7 @@ TEST(LightLanes, WithoutLightThereIsNoSample) {
   SurfaceBlock surfaces = {};
   ShadingBlock& block = surfaces.points;
   for (int lane = 0; lane < ShadingBlock::kWidth; ++lane) put(block, random_point(random));
-  const Shading shading(dark.lights, arrays, choose_shading_kernels("auto"), true, DirectLight::mis,
-                        MisHeuristic::power);
+  const Shading shading = make_shading(dark.lights, arrays);
   shading.scatter(surfaces);
   for (int lane = 0; lane < block.count; ++lane) {
     for (int c = 0; c < 3; ++c) EXPECT_EQ(block.direct[c][lane], 0.0f);
@@ -225,8 +223,7 @@ TEST(LightLanes, SelectionByPowerUsesTheScalarCode) {
   const LitScene lit(std::move(scene), LightSelection::power);
   const LightArrays arrays(lit.lights);
   EXPECT_EQ(arrays.view(), nullptr);
-  const Shading shading(lit.lights, arrays, choose_shading_kernels("auto"), true, DirectLight::mis,
-                        MisHeuristic::power);
+  const Shading shading = make_shading(lit.lights, arrays);
   for (int b = 0; b < 200; ++b) {
     const bool delta = b % 2 == 1;
     SurfaceBlock surfaces = {};

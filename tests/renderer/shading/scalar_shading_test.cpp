@@ -45,9 +45,12 @@ struct Blocks {
   }
 };
 
-Shading make_shading(const LitScene& lit, const LightArrays& arrays) {
-  return {lit.lights, arrays, choose_shading_kernels("auto"), true, DirectLight::mis, MisHeuristic::power};
-}
+class ScalarShading : public ::testing::Test {
+ protected:
+  const LitScene lit = lit_scene();
+  const LightArrays arrays{lit.lights};
+  const Shading shading = make_shading(lit.lights, arrays);
+};
 
 /// The share of lanes in which a color differs by more than 2 %.
 struct Differences {
@@ -60,16 +63,14 @@ struct Differences {
   double share() const { return far / static_cast<double>(lanes); }
 };
 
-TEST(ScalarShading, AgreesWithTheKernels) {
-  const LitScene lit = lit_scene();
-  const LightArrays arrays(lit.lights);
+TEST_F(ScalarShading, AgreesWithTheKernels) {
   ASSERT_NE(arrays.view(), nullptr);
   Random random(32);
   int lanes = 0, other = 0;
   Differences albedo, wide_albedo, direct, wide_direct, weight, wide_weight;
   for (int b = 0; b < 1500; ++b) {
-    Shading shading = make_shading(lit, arrays);
-    if (b % 3 != 0) shading.separate_wide(0.3f);
+    Shading separating = make_shading(lit.lights, arrays);
+    if (b % 3 != 0) separating.separate_wide(0.3f);
     Blocks blocks;
     while (!blocks.kernels.full()) {
       LanePoint p = random_point(random);
@@ -78,11 +79,11 @@ TEST(ScalarShading, AgreesWithTheKernels) {
       blocks.add(p);
     }
     const bool narrow = b % 3 == 2;
-    shading.scatter(blocks.kernels);
-    shading.scatter(blocks.scalar);
+    separating.scatter(blocks.kernels);
+    separating.scatter(blocks.scalar);
     if (narrow) {
-      shading.scatter_narrow(blocks.kernels, {2.0f, 0.9f});
-      shading.scatter_narrow(blocks.scalar, {2.0f, 0.9f});
+      separating.scatter_narrow(blocks.kernels, {2.0f, 0.9f});
+      separating.scatter_narrow(blocks.scalar, {2.0f, 0.9f});
     }
     const ShadingBlock& k = blocks.kernels.points;
     const ShadingBlock& s = blocks.scalar.points;
@@ -122,10 +123,7 @@ TEST(ScalarShading, AgreesWithTheKernels) {
   }
 }
 
-TEST(ScalarShading, ShadowRaysAreThoseOfTheKernels) {
-  const LitScene lit = lit_scene();
-  const LightArrays arrays(lit.lights);
-  const Shading shading = make_shading(lit, arrays);
+TEST_F(ScalarShading, ShadowRaysAreThoseOfTheKernels) {
   Random random(33);
   int rays = 0;
   for (int b = 0; b < 200; ++b) {
@@ -159,10 +157,7 @@ LanePoint glass(float roughness, bool thin) {
   return p;
 }
 
-TEST(ScalarShading, PathsThatOnlyPassPanesTakeNoLightAndNoOtherLobe) {
-  const LitScene lit = lit_scene();
-  const LightArrays arrays(lit.lights);
-  const Shading shading = make_shading(lit, arrays);
+TEST_F(ScalarShading, PathsThatOnlyPassPanesTakeNoLightAndNoOtherLobe) {
   int passed = 0, ended = 0;
   for (std::uint32_t i = 0; i < 400; ++i) {
     Blocks blocks;
@@ -185,10 +180,7 @@ TEST(ScalarShading, PathsThatOnlyPassPanesTakeNoLightAndNoOtherLobe) {
   EXPECT_GT(ended, 200);
 }
 
-TEST(ScalarShading, LightFromBehindIsLeftOutWhereBouncesFindIt) {
-  const LitScene lit = lit_scene();
-  const LightArrays arrays(lit.lights);
-  const Shading shading = make_shading(lit, arrays);
+TEST_F(ScalarShading, LightFromBehindIsLeftOutWhereBouncesFindIt) {
   int front = 0, behind = 0;
   for (std::uint32_t i = 0; i < 2000; ++i) {
     for (const bool front_lights : {false, true}) {
@@ -209,10 +201,7 @@ TEST(ScalarShading, LightFromBehindIsLeftOutWhereBouncesFindIt) {
   EXPECT_GT(behind, 50);
 }
 
-TEST(ScalarShading, WeightsLeaveOutTheRadianceScaleOfRefraction) {
-  const LitScene lit = lit_scene();
-  const LightArrays arrays(lit.lights);
-  const Shading shading = make_shading(lit, arrays);
+TEST_F(ScalarShading, WeightsLeaveOutTheRadianceScaleOfRefraction) {
   int refracted = 0;
   for (std::uint32_t i = 0; i < 200; ++i) {
     Blocks blocks;

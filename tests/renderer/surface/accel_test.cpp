@@ -7,44 +7,13 @@
 #include "base/errors.h"
 #include "renderer/sampling/sampler.h"
 #include "renderer/sampling/warp.h"
-#include "renderer/surface/surface.h"
+#include "tests/renderer/surface/tracer.h"
 #include "tests/support/scene_builder.h"
 
 namespace gatelight::renderer {
 namespace {
 
 using testing::SceneBuilder;
-
-struct Tracer {
-  explicit Tracer(const scene::Scene& s, const AccelOptions& options = {})
-      : textures(s), coverage(s, textures, media), surfaces(s, textures), accel(s, coverage, options) {}
-
-  Hit hit(const Vec3& origin, const Vec3& direction, float t_max = kInfinity) const {
-    Ray ray;
-    ray.origin = origin;
-    ray.direction = direction;
-    ray.t_max = t_max;
-    Hit result;
-    accel.intersect({&ray, 1}, {&result, 1}, false);
-    return result;
-  }
-  Color passed(const Vec3& origin, const Vec3& direction, float t_max, std::uint32_t seed = 0) const {
-    Ray ray;
-    ray.origin = origin;
-    ray.direction = direction;
-    ray.t_max = t_max;
-    ray.seed = seed;
-    Color result;
-    accel.transmittance({&ray, 1}, {&result, 1});
-    return result;
-  }
-
-  Textures textures;
-  Media media;
-  Coverage coverage;
-  Surfaces surfaces;
-  Accel accel;
-};
 
 Vec3 random_direction(std::uint32_t i) {
   return sample_uniform_sphere(Sampler(SamplerKind::independent, 1, 0, 0, i).get_2d(0));

@@ -8,8 +8,7 @@
 
 #include "renderer/sampling/sampler.h"
 #include "renderer/sampling/warp.h"
-#include "renderer/surface/accel.h"
-#include "renderer/surface/surface.h"
+#include "tests/renderer/surface/tracer.h"
 #include "tests/support/scene_builder.h"
 
 namespace gatelight::renderer {
@@ -17,35 +16,13 @@ namespace {
 
 using testing::SceneBuilder;
 
-struct World {
-  explicit World(const scene::Scene& s)
-      : textures(s), coverage(s, textures, media), surfaces(s, textures), accel(s, coverage, {}) {}
-
-  Hit hit(const Ray& ray) const {
-    Hit hit;
-    accel.intersect({&ray, 1}, {&hit, 1}, false);
-    return hit;
-  }
-  bool blocked(const Ray& ray) const {
-    Color open;
-    accel.transmittance({&ray, 1}, {&open, 1});
-    return !(open.x() > 0.0f);
-  }
-
-  Textures textures;
-  Media media;
-  Coverage coverage;
-  Surfaces surfaces;
-  Accel accel;
-};
-
 Vec2 random_2d(std::uint32_t i, std::uint32_t dimension) {
   return Sampler(SamplerKind::independent, 1, 0, 0, i).get_2d(dimension);
 }
 
 /// The share that points of a ball lose of the cosine-weighted light from above their smooth horizon.
 double lost_light(const scene::Scene& ball) {
-  const World world(ball);
+  const Tracer world(ball);
   int lost = 0, all = 0;
   for (std::uint32_t i = 0; i < 20000; ++i) {
     Ray ray;
@@ -57,7 +34,7 @@ double lost_light(const scene::Scene& ball) {
     const Vec3 wi = Basis(surface.smooth_normal).to_world(sample_cosine_hemisphere(random_2d(i, 4)));
     const bool above = wi.dot(surface.geometric_normal) > 0.0f;
     all += 1;
-    lost += above && !world.blocked({surface.spawn(wi), kInfinity, wi, i}) ? 0 : 1;
+    lost += above && world.passed(surface.spawn(wi), wi, kInfinity, i).x() > 0.0f ? 0 : 1;
   }
   return lost / static_cast<double>(all);
 }
@@ -88,7 +65,7 @@ TEST(ShadowTerminator, PlacedAndMirroredBallsLoseNoLight) {
 
 /// The surface that a ray from `eye` to `target` hits.
 Surface seen(const scene::Scene& s, const Vec3& eye, const Vec3& target) {
-  const World world(s);
+  const Tracer world(s);
   Ray ray;
   ray.origin = eye;
   ray.direction = (target - eye).normalized();
@@ -114,7 +91,7 @@ TEST(ShadowTerminator, PointsRiseBetweenTheTrianglesAndTheTangentPlanes) {
 TEST(ShadowTerminator, FlatHollowAndTransparentSurfacesStayWhereTheyAre) {
   const Vec3 eye(0.3f, 0.4f, 2.5f), target(0.05f, 0.1f, 0.0f);
   const auto stays = [&](const scene::Scene& s, const Vec3& from) {
-    const World world(s);
+    const Tracer world(s);
     Ray ray;
     ray.origin = from;
     ray.direction = (target - from).normalized();

@@ -1,0 +1,40 @@
+#pragma once
+// A scene with all that rays need of it.
+
+#include "renderer/surface/accel.h"
+#include "renderer/surface/surface.h"
+
+namespace gatelight::renderer {
+
+struct Tracer {
+  explicit Tracer(const scene::Scene& s, const AccelOptions& options = {})
+      : textures(s), coverage(s, textures, media), surfaces(s, textures), accel(s, coverage, options) {}
+
+  Hit hit(const Ray& ray) const {
+    Hit result;
+    accel.intersect({&ray, 1}, {&result, 1}, false);
+    return result;
+  }
+  Color passed(const Ray& ray) const {
+    Color result;
+    accel.transmittance({&ray, 1}, {&result, 1});
+    return result;
+  }
+  Hit hit(const Vec3& origin, const Vec3& direction) const {
+    Ray ray;
+    ray.origin = origin;
+    ray.direction = direction;
+    return hit(ray);
+  }
+  Color passed(const Vec3& origin, const Vec3& direction, float t_max, std::uint32_t seed = 0) const {
+    return passed(Ray{origin, t_max, direction, seed});
+  }
+
+  Textures textures;
+  Media media;
+  Coverage coverage;
+  Surfaces surfaces;
+  Accel accel;
+};
+
+}  // namespace gatelight::renderer
