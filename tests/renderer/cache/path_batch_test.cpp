@@ -150,28 +150,26 @@ TEST(PathBatch, FirstRecordsOfAPointBecomeTheirMeanAndOthersKeepTheirOrder) {
   }
 }
 
-TEST(PathBatch, APointWhoseFirstPathLeftNoRecordIsStillAveraged) {
-  PathBatch batch = recorded({10, 10}, {kNone, 0, 1});
-  batch.average_first_records(3);
-  EXPECT_EQ(triangles_of(batch), (std::vector<std::uint32_t>{10}));
-  EXPECT_FLOAT_EQ(batch.targets[0], 0.5f);
-}
-
-TEST(PathBatch, FirstRecordsAtDifferentPointsStaySeparate) {
-  // Behind glass: two paths were reflected to one point, two refracted to another.
-  PathBatch batch = recorded({10, 20, 10, 20}, {0, 1, 2, 3});
-  batch.average_first_records(4);
-  EXPECT_EQ(triangles_of(batch), (std::vector<std::uint32_t>{10, 20}));
-  EXPECT_FLOAT_EQ(batch.targets[0], 2.0f);
-  EXPECT_FLOAT_EQ(batch.targets[3], 5.0f);
-}
-
-TEST(PathBatch, OnePathAPointChangesNothing) {
-  PathBatch batch = recorded({1, 2, 3}, {0, kNone, 2});
-  const std::vector<float> targets = batch.targets;
-  batch.average_first_records(1);
-  EXPECT_EQ(triangles_of(batch), (std::vector<std::uint32_t>{1, 2, 3}));
-  EXPECT_EQ(batch.targets, targets);
+TEST(PathBatch, FirstRecordsAreAveragedOnlyAtTheSamePoint) {
+  struct Row {
+    const char* name;
+    std::vector<std::uint32_t> triangles;
+    std::vector<std::int32_t> first_records;
+    std::size_t paths;  ///< of a point
+    std::vector<std::uint32_t> left;
+    std::vector<float> means;
+  };
+  const Row rows[] = {
+      {"the first path left none", {10, 10}, {kNone, 0, 1}, 3, {10}, {0.5f}},
+      {"two were reflected, two refracted", {10, 20, 10, 20}, {0, 1, 2, 3}, 4, {10, 20}, {2.0f, 5.0f}},
+      {"one path a point", {1, 2, 3}, {0, kNone, 2}, 1, {1, 2, 3}, {0.0f, 1.0f, 4.0f}}};
+  for (const Row& row : rows) {
+    SCOPED_TRACE(row.name);
+    PathBatch batch = recorded(row.triangles, row.first_records);
+    batch.average_first_records(row.paths);
+    EXPECT_EQ(triangles_of(batch), row.left);
+    for (std::size_t i = 0; i < row.means.size(); ++i) EXPECT_FLOAT_EQ(batch.targets[3 * i], row.means[i]);
+  }
 }
 
 }  // namespace

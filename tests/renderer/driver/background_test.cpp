@@ -11,6 +11,7 @@
 #include "tests/support/denoiser.h"
 #include "tests/support/materials.h"
 #include "tests/support/messages.h"
+#include "tests/support/rgb_pictures.h"
 #include "tests/support/scene_builder.h"
 #include "tests/support/statistics.h"
 #include "tests/support/temporary_folder.h"
@@ -166,14 +167,12 @@ TEST(Background, AnEmissiveSheetHasItsAlphaToo) {
 
 /// A picture whose red is its column and green its row.
 void write_grid(const std::filesystem::path& file, int width, int height) {
-  Picture picture{.width = width, .height = height};
-  Layer beauty{.channels = {"R", "G", "B"}};
+  std::vector<float> values;
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x)
-      beauty.values.insert(beauty.values.end(), {static_cast<float>(x), static_cast<float>(y), 0.0f});
+      values.insert(values.end(), {static_cast<float>(x), static_cast<float>(y), 0.0f});
   }
-  picture.layers.push_back(beauty);
-  write_image(picture, file, {.exr_float = true});
+  write_image(testing::rgb(width, height, std::move(values)), file, {.exr_float = true});
 }
 
 TEST(Background, AFileCoversTheViewAndARegionShowsItsPart) {
@@ -194,11 +193,8 @@ TEST(Background, AFileCoversTheViewAndARegionShowsItsPart) {
   EXPECT_NEAR(pixel(whole, 10, 8)[0], 10 + 2 * 10 + 0.5f, 0.1f);
   EXPECT_NEAR(pixel(whole, 10, 8)[1], 2 * 8 + 0.5f, 0.1f);
   // Infinite values and NaN, behind opaque pixels and without them.
-  Picture bright{.width = kWidth, .height = kHeight};
-  bright.layers.push_back({.channels = {"R", "G", "B"}, .values = {}});
-  for (int i = 0; i < kWidth * kHeight; ++i)
-    bright.layers[0].values.insert(bright.layers[0].values.end(), {kInfinity, 1.0f, std::nanf("")});
-  write_image(bright, folder / "grid.exr", {.exr_float = true});
+  write_image(testing::uniform(kWidth, kHeight, {kInfinity, 1.0f, std::nanf("")}), folder / "grid.exr",
+              {.exr_float = true});
   SceneBuilder wall;
   wall.quad(wall.material(SceneBuilder::lambert(Color::Zero())), Vec3(-50, -50, 0), Vec3(100, 0, 0),
             Vec3(0, 100, 0));

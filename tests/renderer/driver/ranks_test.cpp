@@ -18,6 +18,7 @@ using kinds::Kind;
 using kinds::kKinds;
 using kinds::picture_of;
 using kinds::Result;
+using kinds::result_of;
 using testing::room;
 using tests::read_file;
 using tests::run_ranks;
@@ -53,8 +54,7 @@ TEST_P(RanksOfPictures, GiveTheBitsOfOneProcess) {
   options.width = 70;
   options.height = 100;
   if (options.region) options.region = {{3, 2, 60, 91}};
-  Renderer renderer(s, options);
-  const Result alone{renderer.render(), renderer.statistics()};
+  const Result alone = result_of(s, options);
   for (const int count : {2, 3, 5}) {
     SCOPED_TRACE(count);
     const Result together = render_by(count, s, options);
@@ -75,8 +75,7 @@ TEST_P(RanksOfPictures, ResumePicturesOfAnyNumberOfRanks) {
   const scene::Scene s = room();
   RenderOptions options = picture_of(GetParam().integrator);
   GetParam().change(options);
-  Renderer renderer(s, options);
-  const Result straight{renderer.render(), renderer.statistics()};
+  const Result straight = result_of(s, options);
   for (const int first_stop : {1, 3, 8}) {
     const TemporaryFolder folder;
     options.checkpoint.file = folder / "picture";
@@ -118,8 +117,7 @@ TEST(Ranks, AgreeOnTheErrorAtWhichAPictureEnds) {
     if (denoised) testing::denoise(options);
     options.max_error = 0.2;
     options.spp = 200;
-    Renderer renderer(s, options);
-    const Result alone{renderer.render(), renderer.statistics()};
+    const Result alone = result_of(s, options);
     EXPECT_EQ(alone.statistics.ended_by, EndedBy::max_error);
     const Result together = render_by(3, s, options);
     EXPECT_EQ(together.statistics.ended_by, EndedBy::max_error);
@@ -135,7 +133,7 @@ TEST(Ranks, WriteAlphaAndCryptomattesOfOneProcess) {
   testing::denoise(options);
   options.background.kind = BackgroundOptions::Kind::transparent;
   options.cryptomattes = {MatteKind::object};
-  const Result alone{Renderer(s, options).render(), {}};
+  const Result alone = result_of(s, options);
   const Result together = render_by(3, s, options);
   ASSERT_EQ(alone.picture.layers.size(), together.picture.layers.size());
   for (std::size_t i = 0; i < alone.picture.layers.size(); ++i)
@@ -147,8 +145,7 @@ TEST(Ranks, MayBeMoreThanTilesAndRows) {
   const scene::Scene s = room();
   RenderOptions options = picture_of(Integrator::path);
   testing::denoise(options);
-  Renderer renderer(s, options);
-  const Result alone{renderer.render(), renderer.statistics()};
+  const Result alone = result_of(s, options);
   expect_same(render_by(9, s, options), alone);
 }
 
@@ -161,8 +158,7 @@ TEST(Ranks, ReturnToTheSameGoodStateAfterDivergence) {
   std::string expected, reported;
   Result alone;
   try {
-    Renderer renderer(s, options);
-    alone = {renderer.render(), renderer.statistics()};
+    alone = result_of(s, options);
     expected = alone.statistics.cache.diverged;
   } catch (const TrainingDiverged& error) {
     expected = error.what();

@@ -25,25 +25,13 @@ using kinds::Kind;
 using kinds::kKinds;
 using kinds::picture_of;
 using kinds::Result;
+using kinds::result_of;
 using testing::room;
 using tests::expect_message;
 using tests::FileSizeLimit;
 using tests::read_file;
 using tests::refusal;
 using tests::TemporaryFolder;
-
-/// Stops at the n-th call of the stop callback; 0: never.
-Result render(const scene::Scene& scene, const RenderOptions& options, int stop_at = 0) {
-  Renderer renderer(scene, options);
-  std::atomic<int> calls{0};
-  Callbacks callbacks;
-  // The callback stops once, like a caller that presses a key.
-  callbacks.stop = [&] { return ++calls == stop_at; };
-  Result result;
-  result.picture = renderer.render(callbacks);
-  result.statistics = renderer.statistics();
-  return result;
-}
 
 TEST(FullDisk, WithoutACallbackItEndsTheRun) {
   const scene::Scene s = room();
@@ -66,7 +54,7 @@ TEST_P(Resume, AResumedPictureHasTheBitsOfAnUninterruptedOne) {
   RenderOptions options = picture_of(GetParam().integrator);
   GetParam().change(options);
   options.threads = 2;
-  const Result straight = render(s, options);
+  const Result straight = result_of(s, options);
   EXPECT_FALSE(straight.statistics.interrupted);
   const bool trains = uses_cache(options.integrator);
   for (const int first_stop : {1, trains ? 2 : 4, trains ? 4 : 5, trains ? 5 : 7}) {
@@ -80,7 +68,7 @@ TEST_P(Resume, AResumedPictureHasTheBitsOfAnUninterruptedOne) {
     Result result;
     for (int stop = first_stop; runs < 20; ++runs, stop = stop * 2 + 1) {
       options.threads = 1 + runs % 3;
-      result = render(s, options, stop);
+      result = result_of(s, options, stop);
       EXPECT_EQ(folder.count_files(), 1u);
       if (!result.statistics.interrupted) break;
       EXPECT_LE(result.statistics.spp, options.spp);
@@ -97,18 +85,18 @@ TEST_P(Resume, MoreSamplesContinueThePicture) {
   const TemporaryFolder folder;
   RenderOptions options = picture_of(GetParam().integrator);
   GetParam().change(options);
-  const Result straight = render(s, options);
+  const Result straight = result_of(s, options);
   options.checkpoint.file = folder / "picture";
   options.checkpoint.resume = true;
   options.spp = 2;
-  render(s, options);
+  result_of(s, options);
   options.spp = 5;
-  const Result more = render(s, options);
+  const Result more = result_of(s, options);
   expect_same(more, straight);
   // Nothing is left to do.
-  expect_same(render(s, options), straight);
+  expect_same(result_of(s, options), straight);
   options.spp = 4;
-  expect_message(refusal<CacheFileError>([&] { render(s, options); }), {"spp", "5", "4"});
+  expect_message(refusal<CacheFileError>([&] { result_of(s, options); }), {"spp", "5", "4"});
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, Resume, ::testing::ValuesIn(kKinds),
@@ -118,20 +106,20 @@ TEST(Checkpoints, AMissingFileStartsAnewAndWithoutResumeAnOldOneIsNotRead) {
   const scene::Scene s = room();
   const TemporaryFolder folder;
   RenderOptions options = picture_of(Integrator::path);
-  const Result straight = render(s, options);
+  const Result straight = result_of(s, options);
   options.checkpoint.file = folder / "picture";
   options.checkpoint.resume = true;
-  expect_same(render(s, options), straight);
+  expect_same(result_of(s, options), straight);
   const std::string bytes = read_file(options.checkpoint.file);
   EXPECT_FALSE(bytes.empty());
   options.checkpoint.resume = false;
   options.seed = 1;
-  EXPECT_EQ(render(s, options).statistics.spp, 5);
+  EXPECT_EQ(result_of(s, options).statistics.spp, 5);
   EXPECT_NE(read_file(options.checkpoint.file), bytes);
   folder.write("picture", "garbage");
-  render(s, options);
+  result_of(s, options);
   options.checkpoint.resume = true;
-  expect_same(render(s, options), render(s, options));
+  expect_same(result_of(s, options), result_of(s, options));
 }
 
 TEST(Checkpoints, OptionsThatDecideBitsMustBeTheSame) {
@@ -140,11 +128,11 @@ TEST(Checkpoints, OptionsThatDecideBitsMustBeTheSame) {
   RenderOptions options = picture_of(Integrator::nrc);
   options.checkpoint.file = folder / "picture";
   options.checkpoint.resume = true;
-  render(s, options, 3);
+  result_of(s, options, 3);
   const auto resuming = [&](const std::function<void(RenderOptions&)>& change) {
     RenderOptions other = options;
     change(other);
-    return refusal<CacheFileError>([&] { render(s, other); });
+    return refusal<CacheFileError>([&] { result_of(s, other); });
   };
   expect_message(resuming([](RenderOptions& o) { o.seed = 7; }), {"/picture", "seed", "0", "7"});
   expect_message(resuming([](RenderOptions& o) { o.camera.look_at->eye.x() = 0.6f; }), {"camera", "0.6"});
@@ -154,14 +142,14 @@ TEST(Checkpoints, OptionsThatDecideBitsMustBeTheSame) {
                           {"/picture", "kernels", "scalar"});
   }
   s.materials[0].base_color.x() = 0.1f;
-  expect_message(refusal<CacheFileError>([&] { render(s, options); }), {"materials"});
+  expect_message(refusal<CacheFileError>([&] { result_of(s, options); }), {"materials"});
   s = room();
   std::string bytes = read_file(options.checkpoint.file);
   bytes[bytes.size() - 9] ^= 1;
   folder.write("picture", bytes);
-  expect_message(refusal<CacheFileError>([&] { render(s, options); }), {"/picture"});
+  expect_message(refusal<CacheFileError>([&] { result_of(s, options); }), {"/picture"});
   options.checkpoint.file = (folder / "none" / "picture").string();
-  EXPECT_THROW(render(s, options), OutputError);
+  EXPECT_THROW(result_of(s, options), OutputError);
 }
 
 TEST(Checkpoints, GroupsOfLightsMustBeTheSame) {
@@ -173,13 +161,13 @@ TEST(Checkpoints, GroupsOfLightsMustBeTheSame) {
   options.light_groups = {{"key", {"lamp", "bulb"}}};
   options.checkpoint.file = folder / "picture";
   options.checkpoint.resume = true;
-  render(s, options);
+  result_of(s, options);
   options.light_groups = {{"key", {"lamp"}}, {"fill", {"bulb"}}};
-  expect_message(refusal<CacheFileError>([&] { render(s, options); }),
+  expect_message(refusal<CacheFileError>([&] { result_of(s, options); }),
                  {"light-groups", "key=lamp,bulb", "key=lamp;fill=bulb"});
   options.light_groups = {{"key", {"lamp", "bulb"}}};
   s.lights[1].name = "other";
-  tests::expect_message(refusal<CacheFileError>([&] { render(s, options); }), {"lights-of-groups"});
+  tests::expect_message(refusal<CacheFileError>([&] { result_of(s, options); }), {"lights-of-groups"});
 }
 
 TEST(CacheFiles, ASavedCacheAnswersAndContinuesTrainingToTheBit) {
@@ -187,25 +175,25 @@ TEST(CacheFiles, ASavedCacheAnswersAndContinuesTrainingToTheBit) {
   for (const Integrator integrator : {Integrator::nao, Integrator::nrc}) {
     const TemporaryFolder folder;
     RenderOptions options = picture_of(integrator);
-    const Result straight = render(s, options);
+    const Result straight = result_of(s, options);
     options.cache.cache_out = folder / "eight";
-    render(s, options);
+    result_of(s, options);
     options.cache.cache_in = options.cache.cache_out;
     options.cache.cache_out = folder / "more";
 
     options.cache.train_steps = std::nullopt;
-    const Result loaded = render(s, options);
+    const Result loaded = result_of(s, options);
     EXPECT_EQ(loaded.picture.layers[0].values, straight.picture.layers[0].values);
     EXPECT_EQ(loaded.statistics.cache.steps, 0);
     EXPECT_EQ(loaded.statistics.cache.steps_wanted, 0);
     EXPECT_EQ(read_file(folder / "more"), read_file(folder / "eight"));
 
     options.cache.train_steps = 8;
-    const Result more = render(s, options);
+    const Result more = result_of(s, options);
     EXPECT_EQ(more.statistics.cache.steps, 8);
     RenderOptions whole = picture_of(integrator);
     whole.cache.train_steps = 16;
-    const Result sixteen = render(s, whole);
+    const Result sixteen = result_of(s, whole);
     EXPECT_EQ(more.picture.layers[0].values, sixteen.picture.layers[0].values);
     EXPECT_NE(more.picture.layers[0].values, straight.picture.layers[0].values);
 
@@ -214,7 +202,7 @@ TEST(CacheFiles, ASavedCacheAnswersAndContinuesTrainingToTheBit) {
     options.width = 20;
     options.cache.batch = 500;
     options.cache.training.adam.learning_rate = 1e-3f;
-    EXPECT_EQ(render(s, options).statistics.cache.steps, 8);
+    EXPECT_EQ(result_of(s, options).statistics.cache.steps, 8);
   }
 }
 
@@ -223,21 +211,21 @@ TEST(CacheFiles, ACheckpointContinuesWithALoadedCache) {
   const TemporaryFolder folder;
   RenderOptions options = picture_of(Integrator::nrc);
   options.cache.cache_out = folder / "eight";
-  render(s, options);
+  result_of(s, options);
   options.cache.cache_in = options.cache.cache_out;
   options.cache.cache_out = folder / "more";
   options.cache.train_steps = 24;  // groups of 8, 16
-  const Result straight = render(s, options);
+  const Result straight = result_of(s, options);
   const std::string saved = read_file(folder / "more");
   for (const int stop : {1, 2, 4}) {
     options.checkpoint.file = folder / "picture";
     options.checkpoint.resume = true;
     std::filesystem::remove(folder / "picture");
     std::filesystem::remove(folder / "more");
-    EXPECT_TRUE(render(s, options, stop).statistics.interrupted);
+    EXPECT_TRUE(result_of(s, options, stop).statistics.interrupted);
     EXPECT_EQ(std::filesystem::exists(folder / "more"), stop >= 2) << "a partly trained cache was saved";
     std::filesystem::rename(folder / "eight", folder / "away");
-    expect_same(render(s, options), straight);
+    expect_same(result_of(s, options), straight);
     std::filesystem::rename(folder / "away", folder / "eight");
     EXPECT_EQ(read_file(folder / "more"), saved);
   }
@@ -248,22 +236,22 @@ TEST(CacheFiles, ACacheOfAnotherKindOrSceneIsRefused) {
   const TemporaryFolder folder;
   RenderOptions options = picture_of(Integrator::nrc);
   options.cache.cache_out = folder / "a";
-  render(s, options);
+  result_of(s, options);
   options.cache.cache_in = options.cache.cache_out;
   options.cache.cache_out.clear();
   const auto loading = [&](const std::function<void(RenderOptions&)>& change) {
     RenderOptions other = options;
     change(other);
-    return refusal<CacheFileError>([&] { render(s, other); });
+    return refusal<CacheFileError>([&] { result_of(s, other); });
   };
   expect_message(loading([](RenderOptions& o) { o.cache.component = CachedComponent::all; }),
                  {"cache-holds", "no-delta", "all"});
   expect_message(loading([](RenderOptions& o) { o.cache.mlp.width = 32; }), {"hidden width", "16", "32"});
   expect_message(loading([](RenderOptions& o) { o.cache.gate.features = 4; }), {"features", "8", "4"});
   s.meshes[0].positions[0].x() += 0.1f;
-  expect_message(refusal<CacheFileError>([&] { render(s, options); }), {"geometry"});
+  expect_message(refusal<CacheFileError>([&] { result_of(s, options); }), {"geometry"});
   options.cache.cache_out = (folder / "none" / "a").string();
-  EXPECT_THROW(render(room(), options), OutputError);
+  EXPECT_THROW(result_of(room(), options), OutputError);
 }
 
 }  // namespace

@@ -23,6 +23,7 @@ using kinds::Kind;
 using kinds::kKinds;
 using kinds::picture_of;
 using kinds::Result;
+using kinds::result_of;
 using testing::room;
 using tests::expect_parts;
 using tests::TemporaryFolder;
@@ -46,14 +47,6 @@ std::vector<Result> collect(Renderer& renderer, const Series& series, const Call
   return results;
 }
 
-Result render_alone(const scene::Scene& scene, const RenderOptions& options) {
-  Renderer renderer(scene, options);
-  Result result;
-  result.picture = renderer.render();
-  result.statistics = renderer.statistics();
-  return result;
-}
-
 /// The picture of one point by itself.
 Result render_point(const scene::Scene& scene, RenderOptions options, const Series& series,
                     std::size_t point) {
@@ -62,7 +55,7 @@ Result render_point(const scene::Scene& scene, RenderOptions options, const Seri
   } else {
     options.spp = series.spp[point];
   }
-  return render_alone(scene, options);
+  return result_of(scene, options);
 }
 
 using SeriesOf = kinds::Kinds;
@@ -92,7 +85,7 @@ TEST_P(SeriesOf, EachPictureIsThatOfARunThatEndsThere) {
   expect_same({results.back().picture, renderer.statistics()}, results.back());
   // The series does not change a later picture.
   const Picture after = renderer.render();
-  EXPECT_EQ(after.layers[0].values, render_alone(s, options).picture.layers[0].values);
+  EXPECT_EQ(after.layers[0].values, result_of(s, options).picture.layers[0].values);
 }
 
 TEST_P(SeriesOf, StoppedAnywhereItGivesWholePicturesOnly) {
@@ -165,7 +158,7 @@ TEST(RenderSeries, ContinuesWithALoadedCache) {
   const TemporaryFolder folder;
   RenderOptions options = picture_of(Integrator::nrc);
   options.cache.cache_out = folder / "eight";
-  const Result eight = render_alone(s, options);
+  const Result eight = result_of(s, options);
   options.cache.cache_in = options.cache.cache_out;
   options.cache.cache_out.clear();
   const Series series{.train_steps = {0, 5, 24}};  // groups of 8, 16

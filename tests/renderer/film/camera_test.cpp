@@ -68,10 +68,6 @@ TEST(Camera, IsChosenByNameThenByIndex) {
   EXPECT_EQ(choose_camera(s, {}, 1.0f).name, "front");
   EXPECT_EQ(choose_camera(s, named("top"), 1.0f).name, "top");
   EXPECT_EQ(choose_camera(s, named("1"), 1.0f).name, "top");
-}
-
-TEST(Camera, UnknownNameNamesTheChoices) {
-  const scene::Scene s = scene_with_cameras();
   expect_refused_parts<BadOption>([&] { choose_camera(s, named("side"), 1.0f); },
                                   {"camera", "side", "test.glb", "front"});
 }

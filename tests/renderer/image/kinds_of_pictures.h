@@ -3,8 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <functional>
 #include <ostream>
+#include <utility>
 
 #include "renderer/render.h"
 #include "tests/support/denoiser.h"
@@ -36,6 +38,16 @@ struct Result {
   Picture picture;
   RenderStatistics statistics;
 };
+
+/// Stops at the n-th call of the stop callback, once, like a caller that presses a key; 0: never.
+inline Result result_of(const scene::Scene& scene, const RenderOptions& options, int stop_at = 0) {
+  Renderer renderer(scene, options);
+  std::atomic<int> calls{0};
+  Callbacks callbacks;
+  callbacks.stop = [&] { return ++calls == stop_at; };
+  Picture picture = renderer.render(callbacks);
+  return {std::move(picture), renderer.statistics()};
+}
 
 inline void expect_same(const Result& a, const Result& b) {
   ASSERT_EQ(a.picture.layers.size(), b.picture.layers.size());

@@ -74,9 +74,16 @@ scene::Material matte() {
   return SceneBuilder::lambert(Color::Constant(0.5f));
 }
 
-TEST(ReusedSamples, AreWeightedByTheirNumbers) {
-  const Wall wall(matte());
-  const Reuse reuse = wall.reuse(wall.film(1.0f, 0.5f, true), wall.history(wall.camera, 1.0f, 12.0f, -1.0f));
+class ReusedSamples : public ::testing::Test {
+ protected:
+  /// With 12 samples of a radiance of 1.
+  History usual_history() const { return wall.history(wall.camera, 1.0f, 12.0f, -1.0f); }
+
+  const Wall wall{matte()};
+};
+
+TEST_F(ReusedSamples, AreWeightedByTheirNumbers) {
+  const Reuse reuse = wall.reuse(wall.film(1.0f, 0.5f, true), usual_history());
   EXPECT_EQ(reuse.share, 1.0);
   for (const float samples : reuse.samples) EXPECT_NEAR(samples, 16.0f, 1e-4f);
   std::vector<float> denoised(3 * kPixels, 0.9f);
@@ -84,9 +91,8 @@ TEST(ReusedSamples, AreWeightedByTheirNumbers) {
   for (const float color : denoised) EXPECT_NEAR(color, (4.0f * 0.9f + 12.0f * 1.0f) / 16.0f, 1e-4f);
 }
 
-TEST(ReusedSamples, LeaveDetailsToTheFrame) {
-  const Wall wall(matte());
-  const Reuse reuse = wall.reuse(wall.film(1.0f, 0.5f, true), wall.history(wall.camera, 1.0f, 12.0f, -1.0f));
+TEST_F(ReusedSamples, LeaveDetailsToTheFrame) {
+  const Reuse reuse = wall.reuse(wall.film(1.0f, 0.5f, true), usual_history());
   std::vector<float> denoised(3 * kPixels);
   const auto sign = [](std::size_t pixel) { return (pixel + pixel / kWidth) % 2 == 0 ? 1.0f : -1.0f; };
   for (std::size_t i = 0; i < denoised.size(); ++i) denoised[i] = 1.0f + 0.2f * sign(i / 3);
@@ -95,8 +101,7 @@ TEST(ReusedSamples, LeaveDetailsToTheFrame) {
     EXPECT_NEAR(denoised[i], 1.0f + 0.5f * 0.2f * sign(i / 3), 0.02f);
 }
 
-TEST(ReusedSamples, AreAsBrightAsThoseOfTheFrame) {
-  const Wall wall(matte());
+TEST_F(ReusedSamples, AreAsBrightAsThoseOfTheFrame) {
   const Reuse reuse = wall.reuse(wall.film(1.0f, 0.5f, true), wall.history(wall.camera, 1.1f, 12.0f, -1.0f));
   EXPECT_EQ(reuse.share, 1.0) << "within the noise of 9 x 9 pixels";
   for (const float color : reuse.color) EXPECT_NEAR(color, 1.0f, 0.02f) << "known from all pixels";
@@ -105,11 +110,12 @@ TEST(ReusedSamples, AreAsBrightAsThoseOfTheFrame) {
   for (const float color : unsure.color) EXPECT_NEAR(color, 1.02f, 1e-3f) << "within the noise of all";
 }
 
-TEST(ReusedSamples, NearEdgesAreNotCarried) {
-  Wall wall(matte());
-  wall.builder.quad(0, Vec3(-9, -9, 1), Vec3(9, 0, 0), Vec3(0, 18, 0));  // the left half, nearer
-  wall.world.emplace(wall.builder.scene());
-  const Reuse reuse = wall.reuse(wall.film(1.0f, 0.5f, true), wall.history(wall.camera, 1.0f, 12.0f, -1.0f));
+TEST_F(ReusedSamples, NearEdgesAreNotCarried) {
+  Wall with_edge(matte());
+  with_edge.builder.quad(0, Vec3(-9, -9, 1), Vec3(9, 0, 0), Vec3(0, 18, 0));  // the left half, nearer
+  with_edge.world.emplace(with_edge.builder.scene());
+  const Reuse reuse = with_edge.reuse(with_edge.film(1.0f, 0.5f, true),
+                                      with_edge.history(with_edge.camera, 1.0f, 12.0f, -1.0f));
   int edges = 0;
   for (int x = 0; x < kWidth; ++x) {
     const std::size_t i = kRect.index(x, kHeight / 2);
@@ -120,14 +126,12 @@ TEST(ReusedSamples, NearEdgesAreNotCarried) {
   EXPECT_LE(edges, 8);
 }
 
-TEST(ReusedSamples, AreAtMostSoMany) {
-  const Wall wall(matte());
+TEST_F(ReusedSamples, AreAtMostSoMany) {
   const Reuse reuse = wall.reuse(wall.film(1.0f, 0.5f), wall.history(wall.camera, 1.0f, 1e6f, -1.0f));
   for (const float samples : reuse.samples) EXPECT_NEAR(samples, 4.0f * (1.0f + kMaxEarlier), 1e-2f);
 }
 
-TEST(ReusedSamples, ComeFromWhereThePointWas) {
-  const Wall wall(matte());
+TEST_F(ReusedSamples, ComeFromWhereThePointWas) {
   const Camera beside(view_from(Vec3(1, 0, 4), Vec3(1, 0, 0)), kWidth, kHeight);
   History history = wall.history(beside, 0.0f, 12.0f, -1.0f);
   for (std::size_t i = 0; i < kPixels; ++i) {
@@ -146,8 +150,7 @@ TEST(ReusedSamples, ComeFromWhereThePointWas) {
   EXPECT_LT(seen, static_cast<int>(kPixels)) << "a part was not in the earlier picture";
 }
 
-TEST(ReusedSamples, AreNotTakenFromAnotherLight) {
-  const Wall wall(matte());
+TEST_F(ReusedSamples, AreNotTakenFromAnotherLight) {
   const Film film = wall.film(1.0f, 0.5f);
   EXPECT_EQ(wall.reuse(film, wall.history(wall.camera, 1.0f, 12.0f, 3.0f), 1.0f).share, 0.0)
       << "probes differ";
@@ -159,8 +162,7 @@ TEST(ReusedSamples, AreNotTakenFromAnotherLight) {
   EXPECT_EQ(wall.reuse(film, red, 1.0f).share, 0.0) << "another hue, as bright";
 }
 
-TEST(ReusedSamples, TakeTheHueOfTheProbes) {
-  const Wall wall(matte());
+TEST_F(ReusedSamples, TakeTheHueOfTheProbes) {
   History history = wall.history(wall.camera, 1.0f, 12.0f, 1.0f);
   history.probes.assign(kPixels, Color(1.0f, 1.02f, 1.0f));
   const Reuse reuse = wall.reuse(wall.film(1.0f, 0.5f, true), history, 1.0f);
@@ -171,28 +173,25 @@ TEST(ReusedSamples, TakeTheHueOfTheProbes) {
   }
 }
 
-TEST(ReusedSamples, AreNotTakenFromAnotherMaterial) {
-  const Wall wall(matte());
+TEST_F(ReusedSamples, AreNotTakenFromAnotherMaterial) {
   const Film film = wall.film(1.0f, 0.5f, true);
-  const History history = wall.history(wall.camera, 1.0f, 12.0f, -1.0f);
+  const History history = usual_history();
   EXPECT_EQ(wall.reuse_changed(film, history, 0.5f).share, 0.0);
   const Reuse little = wall.reuse_changed(film, history, 0.02f);
   for (const float weight : little.weight) EXPECT_NEAR(weight * 0.02f, 0.01f, 0.005f);
   for (const float weight : wall.reuse_changed(film, history, 0.0f).weight) EXPECT_NEAR(weight, 0.75f, 1e-4f);
 }
 
-TEST(ReusedSamples, BehindOtherSurfacesAreNotTaken) {
-  const Wall wall(matte());
-  History history = wall.history(wall.camera, 1.0f, 12.0f, -1.0f);
+TEST_F(ReusedSamples, BehindOtherSurfacesAreNotTaken) {
+  History history = usual_history();
   for (VisiblePoint& point : history.points) point.layers = 1;
   EXPECT_EQ(wall.reuse(wall.film(1.0f, 0.5f, true), history).share, 0.0) << "a pane that is gone";
 }
 
-TEST(ReusedSamples, FollowSlowChangesThatAddUp) {
+TEST_F(ReusedSamples, FollowSlowChangesThatAddUp) {
   // The noise of the samples hides each change.
   constexpr float kStep = 0.005f;
-  const Wall wall(matte());
-  History history = wall.history(wall.camera, 1.0f, 12.0f, -1.0f);
+  History history = usual_history();
   float light = 1.0f;
   for (int frame = 0; frame < 30; ++frame) {
     light *= 1.0f + kStep;
@@ -205,17 +204,17 @@ TEST(ReusedSamples, FollowSlowChangesThatAddUp) {
   }
 }
 
-TEST(ReusedSamples, OfMetalsNeedTheSameReflection) {
+TEST_F(ReusedSamples, OfMetalsNeedTheSameReflection) {
   scene::Material metal;
   metal.metallic = 1.0f;
   metal.roughness = 0.3f;
-  const Wall wall(metal);
-  const Film film = wall.film(1.0f, 0.5f);
+  const Wall of_metal(metal);
+  const Film film = of_metal.film(1.0f, 0.5f);
   const auto mean_samples = [&](const Camera& from) {
-    const Reuse reuse = wall.reuse(film, wall.history(from, 1.0f, 12.0f, -1.0f));
+    const Reuse reuse = of_metal.reuse(film, of_metal.history(from, 1.0f, 12.0f, -1.0f));
     return reuse.samples[kRect.index(kWidth / 2, kHeight / 2)];
   };
-  EXPECT_NEAR(mean_samples(wall.camera), 16.0f, 1e-3f);
+  EXPECT_NEAR(mean_samples(of_metal.camera), 16.0f, 1e-3f);
   EXPECT_NEAR(mean_samples(Camera(view_from(Vec3(1, 0, 4), Vec3::Zero()), kWidth, kHeight)), 4.0f, 0.1f);
 }
 

@@ -54,16 +54,27 @@ SceneBuilder moving_quad(const Affine& at) {
   return builder;
 }
 
+/// The points of a scene, seen as it was before by the same camera.
+struct Followed {
+  Followed(scene::Scene& present, scene::Scene& earlier)
+      : world(present), camera(present.cameras[0], kViewWidth, kViewHeight) {
+    const PreviousView view{SceneSnapshot(earlier), camera};
+    points = trace_visible_points(world, camera, kViewRect, &view);
+  }
+
+  World world;
+  Camera camera;
+  VisiblePoints points;
+};
+
 TEST(VisiblePoints, FollowWhatMoves) {
   Affine before = Affine::Identity(), now = Affine::Identity();
   before.translation() = Vec3(-0.5f, 0.25f, 0.0f);
   before.rotate(Eigen::AngleAxisf(0.2f, Vec3::UnitZ()));
   now.translation() = Vec3(0.3f, 0.0f, 0.5f);
   SceneBuilder earlier = moving_quad(before), present = moving_quad(now);
-  const World world(present.scene());
-  const Camera camera(present.scene().cameras[0], kViewWidth, kViewHeight);
-  const PreviousView view{SceneSnapshot(earlier.scene()), camera};
-  const VisiblePoints points = trace_visible_points(world, camera, kViewRect, &view);
+  const Followed seen(present.scene(), earlier.scene());
+  const VisiblePoints& points = seen.points;
   int moved = 0;
   for (std::size_t i = 0; i < points.now.size(); ++i) {
     const VisiblePoint& point = points.now[i];
@@ -73,7 +84,7 @@ TEST(VisiblePoints, FollowWhatMoves) {
         point.hit.instance == 1 ? Vec3(before * now.inverse() * point.position) : point.position;
     moved += point.hit.instance == 1 ? 1 : 0;
     EXPECT_LT((points.earlier[i]->position - expected).norm(), 1e-4f);
-    EXPECT_LT((points.earlier[i]->pixel - *camera.pixel_of(expected)).norm(), 1e-2f);
+    EXPECT_LT((points.earlier[i]->pixel - *seen.camera.pixel_of(expected)).norm(), 1e-2f);
     EXPECT_NEAR(points.earlier[i]->normal.z(), 1.0f, 1e-5f);
   }
   EXPECT_GT(moved, 300);
@@ -82,10 +93,7 @@ TEST(VisiblePoints, FollowWhatMoves) {
 TEST(VisiblePoints, HiddenThingsHaveNoEarlierPlace) {
   SceneBuilder earlier = moving_quad(Affine::Identity()), present = moving_quad(Affine::Identity());
   earlier.scene().instances[1].hidden = true;
-  const World world(present.scene());
-  const Camera camera(present.scene().cameras[0], kViewWidth, kViewHeight);
-  const PreviousView view{SceneSnapshot(earlier.scene()), camera};
-  const VisiblePoints points = trace_visible_points(world, camera, kViewRect, &view);
+  const VisiblePoints points = Followed(present.scene(), earlier.scene()).points;
   for (std::size_t i = 0; i < points.now.size(); ++i)
     EXPECT_EQ(points.earlier[i].has_value(), points.now[i].hit.instance == 0);
 }
@@ -153,10 +161,7 @@ constexpr std::size_t kLeftPixel = 4, kMiddlePixel = kViewWidth / 2, kRightPixel
 TEST(VisiblePoints, OfTheSameMaterialHaveNotChanged) {
   for (const float change : ChangingWall().changes()) EXPECT_EQ(change, 0.0f);
   SceneBuilder still = moving_quad(Affine::Identity());
-  const World world(still.scene());
-  const Camera camera(still.scene().cameras[0], kViewWidth, kViewHeight);
-  const PreviousView view{SceneSnapshot(still.scene()), camera};
-  EXPECT_TRUE(trace_visible_points(world, camera, kViewRect, &view).changes.empty());
+  EXPECT_TRUE(Followed(still.scene(), still.scene()).points.changes.empty());
 }
 
 TEST(VisiblePoints, TellTheChangeOfWhatThePixelShows) {
