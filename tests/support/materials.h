@@ -1,5 +1,5 @@
 #pragma once
-// Materials and lights that many small scenes have.
+// Materials, lights and floors that many small scenes have.
 
 #include "tests/support/scene_builder.h"
 
@@ -20,6 +20,13 @@ inline scene::Material solid_glass(float ior = 1.5f, float roughness = 0.0f) {
   m.ior = ior;
   m.thickness = 1.0f;
   return m;
+}
+
+/// A level square around the y axis that faces up.
+inline scene::Mesh& add_floor(SceneBuilder& builder, const scene::Material& material, float half,
+                              float height = 0.0f) {
+  return builder.quad(builder.material(material), Vec3(-half, height, half), Vec3(2.0f * half, 0, 0),
+                      Vec3(0, 0, -2.0f * half));
 }
 
 /// A sun whose light travels in this direction.

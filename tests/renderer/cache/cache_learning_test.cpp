@@ -11,6 +11,7 @@
 #include "base/errors.h"
 #include "tests/renderer/cache/cache_sessions.h"
 #include "tests/renderer/cache/small_worlds.h"
+#include "tests/support/materials.h"
 
 namespace gatelight::renderer {
 namespace {
@@ -128,8 +129,7 @@ TEST(CacheLearning, AnAttenuatedCacheLearnsTooLittle) {
 
 TEST(CacheLearning, OcclusionIsLearnedAndStaysWithinOne) {
   SceneBuilder builder;
-  builder.quad(builder.material(SceneBuilder::lambert(Color::Constant(0.5f))), Vec3(-9, 0, 9), Vec3(18, 0, 0),
-               Vec3(0, 0, -18));
+  testing::add_floor(builder, SceneBuilder::lambert(Color::Constant(0.5f)), 9);
   builder.scene().cameras.push_back(view_from(Vec3(0, 2, 0), Vec3(0, 0, 0)));
   const ViewedWorld viewed(builder);
   const RenderOptions options = small_session(Integrator::nao);

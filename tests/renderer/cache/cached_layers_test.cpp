@@ -46,8 +46,7 @@ TEST(CachedLayers, CacheRadianceIsThePictureOfPathsThatEndAtTheFirstHit) {
 TEST(CachedLayers, WithoutQueriesTheCachesViewIsTheMeanOfRecords) {
   // Sun and sky over a plane that emits light: closed forms of the light that the cache stores.
   SceneBuilder builder;
-  builder.quad(builder.material(SceneBuilder::lambert(Color(0.2f, 0.7f, 0.4f), Color::Constant(5.0f))),
-               Vec3(-500, 0, 500), Vec3(1000, 0, 0), Vec3(0, 0, -1000));
+  testing::add_floor(builder, SceneBuilder::lambert(Color(0.2f, 0.7f, 0.4f), Color::Constant(5.0f)), 500);
   builder.scene().cameras.push_back(view_from(Vec3(0, 2, 0), Vec3(0, 0, 0)));
   builder.scene().lights = {testing::sun(Vec3(0.6f, -0.8f, 0.0f), Color(1.0f, 2.0f, 3.0f))};
   for (const CachedComponent holds :

@@ -31,8 +31,7 @@ const double kLightSignificance = testing::sidak(1e-4, 150);
 /// glass, matte inside glass) under every kind of light.
 SceneBuilder mixed_scene() {
   SceneBuilder builder;
-  builder.quad(builder.material(SceneBuilder::lambert(Color(0.7f, 0.5f, 0.4f))), Vec3(-3, 0, 3),
-               Vec3(6, 0, 0), Vec3(0, 0, -6));
+  testing::add_floor(builder, SceneBuilder::lambert(Color(0.7f, 0.5f, 0.4f)), 3);
   scene::Material wall;
   wall.base_color = Color(0.3f, 0.6f, 0.4f);
   wall.metallic = 0.0f;

@@ -55,10 +55,8 @@ void expect_mean(const Moments& moments, double expected, double rounding) {
       << "mean " << moments.mean() << " +- " << moments.standard_error() << ", expected " << expected;
 }
 
-/// Adds a floor. Light from beyond its edge arrives at too flat an angle to count.
-void add_floor(SceneBuilder& builder, const scene::Material& material, float height) {
-  builder.quad(builder.material(material), Vec3(-50, height, 50), Vec3(100, 0, 0), Vec3(0, 0, -100));
-}
+/// Half the side of floors. Light from beyond their edges arrives at too flat an angle to count.
+constexpr float kHalf = 50.0f;
 
 TEST(CachedPaths, ReflectionsOfAWeakVarnishAreRightInTheMean) {
   scene::Material varnished;
@@ -67,7 +65,7 @@ TEST(CachedPaths, ReflectionsOfAWeakVarnishAreRightInTheMean) {
   varnished.roughness = 0.0f;
   varnished.specular = 0.1f;  // of the 4 % of an index of 1.5: few reflected paths are followed
   SceneBuilder builder;
-  add_floor(builder, varnished, 0.0f);
+  testing::add_floor(builder, varnished, kHalf);
   PathPlan plan;
   plan.query_at = QueryAt::primary;
   const PathBatch batch = look_down(builder.scene(), plan, 20000);
@@ -86,8 +84,8 @@ SceneBuilder pool(const scene::Material& floor) {
   water.attenuation_distance = 1.0f;
   water.attenuation_color = Color(0.2f, static_cast<float>(std::exp(-kAbsorbed)), 0.9f);
   SceneBuilder builder;
-  add_floor(builder, water, static_cast<float>(kDepth));
-  add_floor(builder, floor, 0.0f);
+  testing::add_floor(builder, water, kHalf, static_cast<float>(kDepth));
+  testing::add_floor(builder, floor, kHalf);
   return builder;
 }
 

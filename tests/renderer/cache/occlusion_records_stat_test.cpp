@@ -4,6 +4,7 @@
 
 #include "renderer/cache/occlusion_records.h"
 #include "tests/renderer/cache/small_worlds.h"
+#include "tests/support/materials.h"
 #include "tests/support/statistics.h"
 
 namespace gatelight::renderer {
@@ -40,8 +41,7 @@ void expect_mean_visibility(const Moments& m, double expected) {
 
 TEST(OcclusionRecordsStat, NothingOccludesAPlane) {
   SceneBuilder builder;
-  const int matte = builder.material(SceneBuilder::lambert(Color::Constant(0.5f)));
-  builder.quad(matte, Vec3(-90, 0, 90), Vec3(180, 0, 0), Vec3(0, 0, -180));
+  testing::add_floor(builder, SceneBuilder::lambert(Color::Constant(0.5f)), 90);
   builder.scene().cameras.push_back(view_from(Vec3(0, 1, 0), Vec3(0, 0, 0)));
   const ViewedWorld viewed(builder);
   expect_mean_visibility(targets(viewed, kInfinity, 1000), 1.0);

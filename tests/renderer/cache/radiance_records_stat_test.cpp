@@ -102,8 +102,7 @@ TEST_P(RadianceRecordsStat, AveragedTargetsHaveTheSameMeanAndLessNoise) {
 
 TEST_P(RadianceRecordsStat, SunAndSkyOverAPlaneGiveTheirCachedShare) {
   SceneBuilder builder;
-  builder.quad(builder.material(SceneBuilder::lambert(Color(0.2f, 0.7f, 0.4f))), Vec3(-500, 0, 500),
-               Vec3(1000, 0, 0), Vec3(0, 0, -1000));
+  testing::add_floor(builder, SceneBuilder::lambert(Color(0.2f, 0.7f, 0.4f)), 500);
   builder.scene().cameras.push_back(view_from(Vec3(0, 2, 0), Vec3(0, 0, 0)));
   builder.scene().lights = {testing::sun(Vec3(0.6f, -0.8f, 0.0f), Color(1.0f, 2.0f, 3.0f))};
   const ViewedWorld viewed(builder, {.constant = Color(0.1f, 0.3f, 0.9f)});
@@ -122,7 +121,7 @@ TEST_P(RadianceRecordsStat, TintedPanesWeightTheCachedLightBehindThem) {
   constexpr double kTint = 0.5, kShine = 1.5, kCeiling = 0.8, kFloor = 0.6;
   SceneBuilder builder;
   const auto plane = [&](const scene::Material& material, float y) {
-    builder.quad(builder.material(material), Vec3(-500, y, 500), Vec3(1000, 0, 0), Vec3(0, 0, -1000));
+    testing::add_floor(builder, material, 500, y);
   };
   plane(SceneBuilder::lambert(Color::Constant(0.6f)), 0.0f);
   scene::Material pane;

@@ -65,8 +65,7 @@ TEST(RadianceRecords, DeltaAndBlackVerticesWriteNoRecords) {
 
 TEST(RadianceRecords, TheVertexOwnEmissionIsNotLearned) {
   SceneBuilder builder;
-  builder.quad(builder.material(SceneBuilder::lambert(Color::Constant(0.8f), Color::Constant(5.0f))),
-               Vec3(-9, 0, 9), Vec3(18, 0, 0), Vec3(0, 0, -18));
+  testing::add_floor(builder, SceneBuilder::lambert(Color::Constant(0.8f), Color::Constant(5.0f)), 9);
   builder.scene().cameras.push_back(view_from(Vec3(0, 2, 0), Vec3(0, 0, 0)));
   const ViewedWorld viewed(builder);
   for (const CachedComponent holds :

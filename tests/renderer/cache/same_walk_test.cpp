@@ -74,13 +74,10 @@ void expect_same(const BothWays& both) {
 
 TEST(SameWalk, RouletteEndsPathsBehindThePanesOfTheLastDepth) {
   SceneBuilder builder;
-  const int matte = builder.material(SceneBuilder::lambert(Color::Constant(0.5f)));
-  builder.quad(matte, Vec3(-10, 0, 10), Vec3(20, 0, 0), Vec3(0, 0, -20));
+  testing::add_floor(builder, SceneBuilder::lambert(Color::Constant(0.5f)), 10);
   scene::Material glass = SceneBuilder::clear_glass();
   glass.base_color = Color(0.7f, 0.8f, 0.9f);
-  const int pane = builder.material(glass);
-  for (const float height : {1.0f, 1.1f, 1.2f, 1.3f})
-    builder.quad(pane, Vec3(-10, height, 10), Vec3(20, 0, 0), Vec3(0, 0, -20));
+  for (const float height : {1.0f, 1.1f, 1.2f, 1.3f}) testing::add_floor(builder, glass, 10, height);
   builder.scene().cameras.push_back(testing::view_from(Vec3(0, 0.9f, 0.5f), Vec3::Zero()));
   const ViewedWorld viewed(builder, {.constant = Color(1.0f, 2.0f, 3.0f)});
   const BothWays both = trace(viewed, 1, 0, true);

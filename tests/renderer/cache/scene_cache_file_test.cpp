@@ -20,6 +20,7 @@ using testing::any_cache_state;
 using testing::same_bits;
 using testing::small_model;
 using tests::expect_message;
+using tests::expect_refusal;
 using tests::read_file;
 using tests::refusal;
 using tests::TemporaryFolder;
@@ -112,11 +113,11 @@ TEST(SceneCacheFile, AnotherNetworkIsRefusedButNotAnotherLearningRate) {
   neural::ModelConfig config = model->config;
   config.mlp.width = 32;
   const auto wider = neural::testing::make_case("wide", config).model;
-  expect_message(refusal<CacheFileError>([&] { CacheFile(folder / "a").read_state(*wider, {}); }),
-                 {"hidden width", "16", "32"});
+  expect_refusal<CacheFileError>([&] { CacheFile(folder / "a").read_state(*wider, {}); },
+                                 {"hidden width", "16", "32"});
   options.average.network = false;
-  expect_message(refusal<CacheFileError>([&] { CacheFile(folder / "a").read_state(*model, options); }),
-                 {"average of network", "true", "false"});
+  expect_refusal<CacheFileError>([&] { CacheFile(folder / "a").read_state(*model, options); },
+                                 {"average of network", "true", "false"});
 }
 
 TEST(SceneCacheFile, ImpossibleSetupsAreRefused) {
@@ -141,10 +142,10 @@ TEST(SceneCacheFile, ForeignFilesAreRefused) {
   const TemporaryFolder folder;
   const auto model = small_model();
   neural::write_model_file(folder / "model", *model, {}, neural::initial_state(*model, {}), "");
-  expect_message(refusal<CacheFileError>([&] { CacheFile(folder / "model"); }),
-                 {"format", "gatelight-cache", "gatelight-scene-cache"});
-  expect_message(refusal<CacheFileError>([&] { CacheFile(folder / "none"); }), {"/none"});
-  expect_message(refusal<CacheFileError>([&] { CacheFile(folder.write("text", "no cache")); }), {"/text"});
+  expect_refusal<CacheFileError>([&] { CacheFile(folder / "model"); },
+                                 {"format", "gatelight-cache", "gatelight-scene-cache"});
+  expect_refusal<CacheFileError>([&] { CacheFile(folder / "none"); }, {"/none"});
+  expect_refusal<CacheFileError>([&] { CacheFile(folder.write("text", "no cache")); }, {"/text"});
 }
 
 TEST(SceneCacheFile, EveryChangedByteAndEveryTruncationIsRefused) {
@@ -184,10 +185,10 @@ TEST(SceneCacheFile, AnotherVersionAndAFileWithoutADigestAreRefused) {
   Metadata metadata = content.model.metadata;
   metadata.insert({{"format", "gatelight-scene-cache"}, {"version", "2"}});
   write_safetensors(folder / "a", content.tensors, metadata);
-  expect_message(refusal<CacheFileError>([&] { CacheFile(folder / "a"); }), {"version", "2", "3"});
+  expect_refusal<CacheFileError>([&] { CacheFile(folder / "a"); }, {"version", "2", "3"});
   metadata["version"] = "3";
   write_safetensors(folder / "a", content.tensors, metadata);
-  expect_message(refusal<CacheFileError>([&] { CacheFile(folder / "a"); }), {"digest"});
+  expect_refusal<CacheFileError>([&] { CacheFile(folder / "a"); }, {"digest"});
 }
 
 // The setup in the file decides the number of nodes of the model: the tensors must have that size.
@@ -207,7 +208,7 @@ TEST(SceneCacheFile, ATensorThatIsTooShortForTheModelIsRefusedBeforeAllocation) 
   metadata[kDigestKey] = content_digest(content.tensors, metadata);
   write_safetensors(folder / "a", content.tensors, metadata);
   const CacheFile file(folder / "a");
-  expect_message(refusal<CacheFileError>([&] { file.expect_model(*model, {}); }), {"features", "F32 [1, 1]"});
+  expect_refusal<CacheFileError>([&] { file.expect_model(*model, {}); }, {"features", "F32 [1, 1]"});
 }
 
 }  // namespace

@@ -237,8 +237,7 @@ TEST(Background, TheAlphaIsDenoisedToo) {
 
 /// A floor at y = 0, seen from above, and something else.
 scene::Scene floor_with(SceneBuilder builder) {
-  builder.quad(builder.material(SceneBuilder::lambert(Color::Constant(0.5f))), Vec3(-50, 0, 50),
-               Vec3(100, 0, 0), Vec3(0, 0, -100));
+  testing::add_floor(builder, SceneBuilder::lambert(Color::Constant(0.5f)), 50);
   scene::Scene scene = builder.scene();
   scene.instances.back().name = "floor";
   return scene;

@@ -17,6 +17,7 @@ using testing::any_cache_state;
 using testing::same_bits;
 using testing::small_model;
 using tests::expect_message;
+using tests::expect_refusal;
 using tests::read_file;
 using tests::refusal;
 using tests::TemporaryFolder;
@@ -113,7 +114,7 @@ TEST(Checkpoint, FilmAndStatisticsComeBack) {
     EXPECT_EQ(checkpoint.progress().phase, Phase::render);
     EXPECT_EQ(checkpoint.progress().samples, 17);
     EXPECT_FALSE(checkpoint.has_cache());
-    expect_message(refusal<CacheFileError>([&] { checkpoint.cache_setup(); }), {"cache"});
+    expect_refusal<CacheFileError>([&] { checkpoint.cache_setup(); }, {"cache"});
     checkpoint.expect(identity(), 17);
     Film restored = blank_film(first_hits);
     RenderStatistics back;
@@ -174,24 +175,23 @@ TEST(Checkpoint, DifferencesAreRefusedByName) {
   Checkpoint checkpoint(folder / "a");
   CheckpointIdentity other = identity();
   other.options[0].text = "other";
-  expect_message(refusal<CacheFileError>([&] { checkpoint.expect(other, 64); }),
-                 {"/a", "seed", "1", "other"});
+  expect_refusal<CacheFileError>([&] { checkpoint.expect(other, 64); }, {"/a", "seed", "1", "other"});
   other = identity();
   other.scene[2].text = "other";
-  expect_message(refusal<CacheFileError>([&] { checkpoint.expect(other, 64); }), {"materials"});
+  expect_refusal<CacheFileError>([&] { checkpoint.expect(other, 64); }, {"materials"});
   other.scene[3].text = "other";
-  expect_message(refusal<CacheFileError>([&] { checkpoint.expect(other, 64); }), {"materials", "lights"});
-  expect_message(refusal<CacheFileError>([&] { checkpoint.expect(identity(), 16); }), {"spp", "17", "16"});
+  expect_refusal<CacheFileError>([&] { checkpoint.expect(other, 64); }, {"materials", "lights"});
+  expect_refusal<CacheFileError>([&] { checkpoint.expect(identity(), 16); }, {"spp", "17", "16"});
   EXPECT_EQ(refusal<CacheFileError>([&] { checkpoint.expect(identity(), 17); }), "");
   EXPECT_EQ(refusal<CacheFileError>([&] { checkpoint.expect(identity(), 1000); }), "")
       << "more samples continue the picture";
   Film other_film({0, 0, 1, 1}, 8, 8, {});
   RenderStatistics statistics;
-  expect_message(refusal<CacheFileError>([&] { checkpoint.restore(other_film, statistics); }),
-                 {"film.radiance", "U32 [84]", "U32 [14]"});
+  expect_refusal<CacheFileError>([&] { checkpoint.restore(other_film, statistics); },
+                                 {"film.radiance", "U32 [84]", "U32 [14]"});
   write_safetensors(folder / "b", {}, {{"format", "gatelight-cache"}});
-  expect_message(refusal<CacheFileError>([&] { Checkpoint(folder / "b"); }),
-                 {"format", "gatelight-cache", "gatelight-checkpoint"});
+  expect_refusal<CacheFileError>([&] { Checkpoint(folder / "b"); },
+                                 {"format", "gatelight-cache", "gatelight-checkpoint"});
 }
 
 // The digest of the file is right.
@@ -207,16 +207,15 @@ TEST(Checkpoint, NonFiniteSumsAreRefused) {
     write_checkpoint(folder / "a", identity(), {Phase::render, 1}, {}, film, {});
     Checkpoint checkpoint(folder / "a");
     RenderStatistics statistics;
-    expect_message(refusal<CacheFileError>([&] { checkpoint.restore(film, statistics); }),
-                   {"film.radiance", "2"});
+    expect_refusal<CacheFileError>([&] { checkpoint.restore(film, statistics); }, {"film.radiance", "2"});
     Film with_groups = blank_film(true);
     sums = with_groups.sums();
     sums.light_groups[5][2] = value;
     with_groups.set_sums(sums);
     write_checkpoint(folder / "a", identity(), {Phase::render, 1}, {}, with_groups, {});
     Checkpoint of_groups(folder / "a");
-    expect_message(refusal<CacheFileError>([&] { of_groups.restore(with_groups, statistics); }),
-                   {"film.light_groups", "5"});
+    expect_refusal<CacheFileError>([&] { of_groups.restore(with_groups, statistics); },
+                                   {"film.light_groups", "5"});
   }
 }
 

@@ -28,6 +28,7 @@ using kinds::Result;
 using kinds::result_of;
 using testing::room;
 using tests::expect_message;
+using tests::expect_refusal;
 using tests::FileSizeLimit;
 using tests::read_file;
 using tests::refusal;
@@ -96,7 +97,7 @@ TEST_P(Resume, MoreSamplesContinueThePicture) {
   // Nothing is left to do.
   expect_same(result_of(s, options), straight);
   options.spp = 4;
-  expect_message(refusal<CacheFileError>([&] { result_of(s, options); }), {"spp", "5", "4"});
+  expect_refusal<CacheFileError>([&] { result_of(s, options); }, {"spp", "5", "4"});
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, Resume, ::testing::ValuesIn(kKinds),
@@ -142,12 +143,12 @@ TEST(Checkpoints, OptionsThatDecideBitsMustBeTheSame) {
                           {"/picture", "kernels", "scalar"});
   }
   s.materials[0].base_color.x() = 0.1f;
-  expect_message(refusal<CacheFileError>([&] { result_of(s, options); }), {"materials"});
+  expect_refusal<CacheFileError>([&] { result_of(s, options); }, {"materials"});
   s = room();
   std::string bytes = read_file(options.checkpoint.file);
   bytes[bytes.size() - 9] ^= 1;
   folder.write("picture", bytes);
-  expect_message(refusal<CacheFileError>([&] { result_of(s, options); }), {"/picture"});
+  expect_refusal<CacheFileError>([&] { result_of(s, options); }, {"/picture"});
   options.checkpoint.file = (folder / "none" / "picture").string();
   EXPECT_THROW(result_of(s, options), OutputError);
 }
@@ -163,11 +164,11 @@ TEST(Checkpoints, GroupsOfLightsMustBeTheSame) {
   options.checkpoint.resume = true;
   result_of(s, options);
   options.light_groups = {{"key", {"lamp"}}, {"fill", {"bulb"}}};
-  expect_message(refusal<CacheFileError>([&] { result_of(s, options); }),
-                 {"light-groups", "key=lamp,bulb", "key=lamp;fill=bulb"});
+  expect_refusal<CacheFileError>([&] { result_of(s, options); },
+                                 {"light-groups", "key=lamp,bulb", "key=lamp;fill=bulb"});
   options.light_groups = {{"key", {"lamp", "bulb"}}};
   s.lights[1].name = "other";
-  tests::expect_message(refusal<CacheFileError>([&] { result_of(s, options); }), {"lights-of-groups"});
+  expect_refusal<CacheFileError>([&] { result_of(s, options); }, {"lights-of-groups"});
 }
 
 TEST(CacheFiles, ASavedCacheAnswersAndContinuesTrainingToTheBit) {
@@ -249,7 +250,7 @@ TEST(CacheFiles, ACacheOfAnotherKindOrSceneIsRefused) {
   expect_message(loading([](RenderOptions& o) { o.cache.mlp.width = 32; }), {"hidden width", "16", "32"});
   expect_message(loading([](RenderOptions& o) { o.cache.gate.features = 4; }), {"features", "8", "4"});
   s.meshes[0].positions[0].x() += 0.1f;
-  expect_message(refusal<CacheFileError>([&] { result_of(s, options); }), {"geometry"});
+  expect_refusal<CacheFileError>([&] { result_of(s, options); }, {"geometry"});
   options.cache.cache_out = (folder / "none" / "a").string();
   EXPECT_THROW(result_of(room(), options), OutputError);
 }

@@ -4,6 +4,7 @@
 
 #include "renderer/light/clear_sky.h"
 #include "renderer/render.h"
+#include "tests/support/materials.h"
 #include "tests/support/scene_builder.h"
 
 namespace gatelight::renderer {
@@ -15,8 +16,7 @@ using testing::SceneBuilder;
 /// The mean of a picture that a level matte floor fills.
 Color floor_below(const SkyOptions& sky, float albedo, const RenderOptions& given) {
   SceneBuilder builder;
-  builder.quad(builder.material(SceneBuilder::lambert(Color::Constant(albedo))), Vec3(-5, 0, 5),
-               Vec3(10, 0, 0), Vec3(0, 0, -10));
+  testing::add_floor(builder, SceneBuilder::lambert(Color::Constant(albedo)), 5);
   RenderOptions options = given;
   options.width = options.height = 32;
   options.camera.look_at = LookAt{Vec3(0, 3, 0.5f), Vec3(0, 0, 0), Vec3(0, 1, 0)};

@@ -187,24 +187,14 @@ TEST(Ocio, AViewReplacesTheCurve) {
 TEST(Ocio, MissingNamesAreReportedWithTheAvailableOnes) {
   const TemporaryFolder folder;
   const std::string config = folder.write("config.ocio", kConfig).string();
-  const auto check = [](const OcioView& view) { check_display({.ocio = view}); };
-  expect_refused_parts<BadOption>(
-      [&] {
-        check({config, "cinema", ""});
-      },
-      {"ocio-display", "cinema", "", "'wall'"});
-  expect_refused_parts<BadOption>(
-      [&] {
-        check({config, "screen", "film"});
-      },
-      {"ocio-view", "film", "", "square root"});
-  expect_refused_parts<BadOption>(
-      [&] {
-        check({(folder / "no.ocio").string(), "", ""});
-      },
-      {"ocio", (folder / "no.ocio").string()});
+  const auto refuse = [](const OcioView& view, const ErrorParts& wanted) {
+    expect_refused_parts<BadOption>([&] { check_display({.ocio = view}); }, wanted);
+  };
+  refuse({config, "cinema", ""}, {"ocio-display", "cinema", "", "'wall'"});
+  refuse({config, "screen", "film"}, {"ocio-view", "film", "", "square root"});
+  refuse({(folder / "no.ocio").string(), "", ""}, {"ocio", (folder / "no.ocio").string()});
   const std::string broken = folder.write("broken.ocio", "displays: [").string();
-  expect_refused_parts<BadOption>([&] { check({broken, "", ""}); }, {"ocio", broken});
+  refuse({broken, "", ""}, {"ocio", broken});
 }
 
 }  // namespace

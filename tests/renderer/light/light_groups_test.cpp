@@ -62,12 +62,12 @@ TEST(LightGroups, LightsThatAreSwitchedOffKeepTheirNames) {
   EXPECT_EQ(groups_of(dark, {{"a", {"glow", "torch", "noon"}}}).names(), (Names{"a"}));
 }
 
+void refuse(const LitScene& of, const std::vector<LightGroup>& groups, const ErrorParts& wanted) {
+  expect_refused_parts<BadOption>([&] { groups_of(of, groups); }, wanted);
+}
+
 TEST(LightGroups, UnknownNamesAreRefusedWithTheAvailableOnes) {
   const LitScene all = lit();
-  const auto refuse = [&](const LitScene& of, const std::vector<LightGroup>& groups,
-                          const ErrorParts& wanted) {
-    expect_refused_parts<BadOption>([&] { groups_of(of, groups); }, wanted);
-  };
   refuse(all, {{"key", {"bulb", "tourch"}}},
          {"light-groups", "", "'tourch'", "'environment'", "did you mean 'torch'"});
   refuse(all, {{"key", {"moon*"}}}, {"light-groups", "", "'moon*'", "'noon'"});
@@ -77,16 +77,10 @@ TEST(LightGroups, UnknownNamesAreRefusedWithTheAvailableOnes) {
 
 TEST(LightGroups, ALightIsInOneGroup) {
   const LitScene all = lit();
-  expect_refused_parts<BadOption>(
-      [&] {
-        groups_of(all, {{"a", {"bulb"}}, {"b", {"noon", "bu*"}}});
-      },
-      {"light-groups", "bulb", "'a' and 'b'", "it in one"});
-  expect_refused_parts<BadOption>(
-      [&] {
-        groups_of(all, {{"a", {"environment"}}, {"b", {"environment"}}});
-      },
-      {"light-groups", "environment", "'a' and 'b'"});
+  refuse(all, {{"a", {"bulb"}}, {"b", {"noon", "bu*"}}},
+         {"light-groups", "bulb", "'a' and 'b'", "it in one"});
+  refuse(all, {{"a", {"environment"}}, {"b", {"environment"}}},
+         {"light-groups", "environment", "'a' and 'b'"});
   EXPECT_EQ(groups_of(all, {{"a", {"bulb", "bu*", "bulb"}}}).size(), 2u);
 }
 

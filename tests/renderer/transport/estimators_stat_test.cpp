@@ -32,7 +32,7 @@ SceneBuilder glossy_scene() {
   scene::Material floor;
   floor.base_color = Color(0.9f, 0.8f, 0.7f);
   floor.roughness = 0.35f;
-  builder.quad(builder.material(floor), Vec3(-3, 0, 3), Vec3(6, 0, 0), Vec3(0, 0, -6));
+  testing::add_floor(builder, floor, 3);
   scene::Material plastic;
   plastic.base_color = Color(0.2f, 0.3f, 0.6f);
   plastic.metallic = 0.0f;

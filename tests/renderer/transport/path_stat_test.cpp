@@ -75,9 +75,8 @@ TEST_P(DirectLightModes, DepthCountsScatteringEvents) {
 
 TEST_P(DirectLightModes, QuadLightMatchesLambertsFormula) {
   SceneBuilder builder;
-  const int matte = builder.material(SceneBuilder::lambert(Color::Constant(0.7f)));
   const int lamp = builder.material(SceneBuilder::lambert(Color::Zero(), Color::Constant(5.0f)));
-  builder.quad(matte, Vec3(-10, 0, 10), Vec3(20, 0, 0), Vec3(0, 0, -20));
+  testing::add_floor(builder, SceneBuilder::lambert(Color::Constant(0.7f)), 10);
   // The front looks down.
   builder.quad(lamp, Vec3(0.5f, 1.5f, -1), Vec3(1, 0, 0), Vec3(0, 0.5f, 2));
   const auto lamp_triangles = testing::quad(Vec3(0.5f, 1.5f, -1), Vec3(1, 0, 0), Vec3(0, 0.5f, 2));
@@ -93,9 +92,8 @@ INSTANTIATE_TEST_SUITE_P(All, DirectLightModes,
 
 TEST(PathStat, SphereLightMatchesTheClosedForm) {
   SceneBuilder builder;
-  const int matte = builder.material(SceneBuilder::lambert(Color::Constant(0.6f)));
   const int lamp = builder.material(SceneBuilder::lambert(Color::Zero(), Color::Constant(3.0f)));
-  builder.quad(matte, Vec3(-10, 0, 10), Vec3(20, 0, 0), Vec3(0, 0, -20));
+  testing::add_floor(builder, SceneBuilder::lambert(Color::Constant(0.6f)), 10);
   builder.sphere(lamp, Vec3(1, 2, 0), 0.5f, 128, false);
   // Radiance albedo * L * (R/d)^2 * cos; the mesh is inscribed, 128 segments lose 0.1 % of the cross-section.
   const double d2 = 5.0;
@@ -105,8 +103,7 @@ TEST(PathStat, SphereLightMatchesTheClosedForm) {
 
 TEST(PathStat, SunPointAndSpotMatchTheClosedForms) {
   SceneBuilder builder;
-  const int matte = builder.material(SceneBuilder::lambert(Color::Constant(0.5f)));
-  builder.quad(matte, Vec3(-10, 0, 10), Vec3(20, 0, 0), Vec3(0, 0, -20));
+  testing::add_floor(builder, SceneBuilder::lambert(Color::Constant(0.5f)), 10);
   const RenderOptions options = looking(Vec3(-3, 3, 0), Vec3(0, 0, 0), 0.05f);
   builder.scene().lights = {testing::sun(Vec3(0.6f, -0.8f, 0.0f), Color::Constant(4.0f))};
   expect_radiance(builder.scene(), options, 0.5 / M_PI * 4.0 * 0.8, 1e-4);
@@ -158,10 +155,9 @@ TEST(PathStat, PanesPassTheSunToWhatIsBehindThem) {
   // The same floor under the same sun, with and without a pane: the ratio is the pane's transmittance,
   // squared with two panes. A renderer whose shadow rays stop at glass shows black here.
   SceneBuilder builder;
-  const int matte = builder.material(SceneBuilder::lambert(Color::Constant(0.5f)));
-  builder.quad(matte, Vec3(-10, 0, 10), Vec3(20, 0, 0), Vec3(0, 0, -20));
+  testing::add_floor(builder, SceneBuilder::lambert(Color::Constant(0.5f)), 10);
   scene::Material glass = SceneBuilder::clear_glass();
-  builder.quad(builder.material(glass), Vec3(-1, 1, 1), Vec3(2, 0, 0), Vec3(0, 0, -2));
+  testing::add_floor(builder, glass, 1, 1);
   builder.scene().lights = {testing::sun(Vec3(0, -1, 0), Color::Constant(kPi))};
   RenderOptions options = looking(Vec3(-3, 0.5f, 0), Vec3(0, 0, 0), 0.05f);
   options.max_depth = 1;
@@ -176,11 +172,10 @@ TEST(PathStat, PanesAddNoLightOfTheirOwn) {
   // from the light that it transmits. Shadow rays and BSDF samples through panes must not count the sky
   // twice.
   SceneBuilder builder;
-  const int matte = builder.material(SceneBuilder::lambert(Color::Constant(1.0f)));
-  builder.quad(matte, Vec3(-50, 0, 50), Vec3(100, 0, 0), Vec3(0, 0, -100));
+  testing::add_floor(builder, SceneBuilder::lambert(Color::Constant(1.0f)), 50);
   scene::Material glass = SceneBuilder::clear_glass();
   glass.base_color = Color::Constant(1.0f);
-  builder.quad(builder.material(glass), Vec3(-50, 0.5f, 50), Vec3(100, 0, 0), Vec3(0, 0, -100));
+  testing::add_floor(builder, glass, 50, 0.5f);
   RenderOptions options = looking(Vec3(0, 2, 1), Vec3(0, 0, 0), 10.0f);
   options.environment.constant = Color::Constant(1.0f);
   for (DirectLight direct : {DirectLight::mis, DirectLight::nee, DirectLight::bsdf}) {

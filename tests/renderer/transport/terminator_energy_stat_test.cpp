@@ -113,9 +113,7 @@ TEST(TerminatorEnergy, ABallOnAFloorHardlyGetsLightFromBelowIt) {
     SceneBuilder builder;
     builder.sphere(builder.material(SceneBuilder::lambert(Color::Ones())), Vec3(0, 1, 0), 1.0f, segments,
                    true);
-    if (floor)
-      builder.quad(builder.material(SceneBuilder::lambert(Color::Zero())), Vec3(-50, 0, 50), Vec3(100, 0, 0),
-                   Vec3(0, 0, -100));
+    if (floor) testing::add_floor(builder, SceneBuilder::lambert(Color::Zero()), 50);
     scene::Scene& s = builder.scene();
     s.lights.push_back(testing::sun(Vec3(0.5f, 0.8f, 0)));
     RenderOptions options = looking(Vec3(0, 0.5f, 4), 40.0f);

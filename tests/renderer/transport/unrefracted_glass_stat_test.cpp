@@ -83,8 +83,7 @@ TEST(UnrefractedGlass, TheSunReachesTheGroundUnderABlock) {
 /// `filled`: a ball of water, its floor and a sheet of glass are in it.
 Moments means(const scene::Material& glass, DirectLight direct, bool filled = false) {
   SceneBuilder builder;
-  builder.quad(builder.material(SceneBuilder::lambert(Color::Constant(0.6f))), Vec3(-3, 0, 3), Vec3(6, 0, 0),
-               Vec3(0, 0, -6));
+  testing::add_floor(builder, SceneBuilder::lambert(Color::Constant(0.6f)), 3);
   builder.sphere(builder.material(glass), Vec3(0, 0.8f, 0), 0.5f, 24, true);
   if (filled) {
     builder.scene().instances.back().placement = 0;
@@ -93,9 +92,8 @@ Moments means(const scene::Material& glass, DirectLight direct, bool filled = fa
     water.attenuation_color = Color(0.9f, 0.5f, 0.3f);
     builder.sphere(builder.material(water), Vec3(0.1f, 0.75f, 0), 0.35f, 24, true);
     builder.scene().instances.back().placement = 1;
-    builder.quad(builder.material(glass), Vec3(-0.2f, 0.8f, 0.2f), Vec3(0.4f, 0, 0), Vec3(0, 0, -0.4f));
-    builder.quad(builder.material(SceneBuilder::lambert(Color::Constant(0.6f))), Vec3(-0.2f, 0.6f, 0.2f),
-                 Vec3(0.4f, 0, 0), Vec3(0, 0, -0.4f));
+    testing::add_floor(builder, glass, 0.2f, 0.8f);
+    testing::add_floor(builder, SceneBuilder::lambert(Color::Constant(0.6f)), 0.2f, 0.6f);
   }
   builder.quad(builder.material(SceneBuilder::lambert(Color::Zero(), Color::Constant(6.0f))),
                Vec3(-0.7f, 2.2f, -0.7f), Vec3(1.4f, 0, 0), Vec3(0, 0, 1.4f));
@@ -145,8 +143,7 @@ TEST(UnrefractedGlass, LightSamplesBouncesAndBothAgreeInGlassFilledWithWater) {
 double white_ball(std::uint32_t seed) {
   SceneBuilder builder;
   builder.sphere(builder.material(testing::solid_glass()), Vec3(0, 0, 0), 0.5f, 24, true);
-  builder.quad(builder.material(SceneBuilder::lambert(Color::Ones())), Vec3(-9, -0.6f, 9), Vec3(18, 0, 0),
-               Vec3(0, 0, -18));
+  testing::add_floor(builder, SceneBuilder::lambert(Color::Ones()), 9, -0.6f);
   RenderOptions options;
   options.width = options.height = 16;
   options.spp = 64;
