@@ -107,18 +107,6 @@ TEST_P(MaxError, TheSamplesLimitIt) {
   EXPECT_GT(result.statistics.estimated_error.value(), 1e-6);
 }
 
-TEST_P(MaxError, TheSameBitsForAnyNumberOfThreads) {
-  RenderOptions limited = options();
-  limited.max_error = 1.001 * error_of(8);
-  limited.threads = 1;
-  const MeasuredPicture one = render(limited);
-  limited.threads = 2;
-  const MeasuredPicture two = render(limited);
-  EXPECT_EQ(one.statistics.spp, two.statistics.spp);
-  EXPECT_EQ(one.statistics.estimated_error, two.statistics.estimated_error);
-  EXPECT_EQ(one.picture.layers[0].values, two.picture.layers[0].values);
-}
-
 TEST_P(MaxError, AResumedPictureEndsWithTheSameSamples) {
   RenderOptions limited = options();
   limited.max_error = 1.001 * error_of(11);

@@ -123,21 +123,19 @@ void expect_agreement(const Moments& both, const Moments& other) {
 }
 
 TEST(UnrefractedGlass, LightSamplesBouncesAndBothAgree) {
-  for (const float roughness : {0.0f, 0.4f}) {
-    const Moments both = means(green_glass(roughness), DirectLight::mis);
+  struct Case {
+    float roughness;
+    bool filled;
+  };
+  for (const Case& c : {Case{0.0f, false}, Case{0.4f, false}, Case{0.0f, true}}) {
+    SCOPED_TRACE(::testing::Message() << c.roughness << (c.filled ? ", filled with water" : ""));
+    const Moments both = means(green_glass(c.roughness), DirectLight::mis, c.filled);
     for (const DirectLight direct : {DirectLight::nee, DirectLight::bsdf}) {
       // nee leaves out lamps that are visible only by refraction, so rough glass is compared by bounces.
-      if (direct == DirectLight::nee && roughness > 0.0f) continue;
-      SCOPED_TRACE(roughness);
-      expect_agreement(both, means(green_glass(roughness), direct));
+      if (direct == DirectLight::nee && c.roughness > 0.0f) continue;
+      expect_agreement(both, means(green_glass(c.roughness), direct, c.filled));
     }
   }
-}
-
-TEST(UnrefractedGlass, LightSamplesBouncesAndBothAgreeInGlassFilledWithWater) {
-  const Moments both = means(green_glass(), DirectLight::mis, true);
-  for (const DirectLight direct : {DirectLight::nee, DirectLight::bsdf})
-    expect_agreement(both, means(green_glass(), direct, true));
 }
 
 double white_ball(std::uint32_t seed) {
