@@ -19,7 +19,6 @@ namespace gatelight::renderer {
 namespace {
 
 using kinds::expect_same;
-using kinds::Kind;
 using kinds::kKinds;
 using kinds::picture_of;
 using kinds::Result;

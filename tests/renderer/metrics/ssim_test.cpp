@@ -125,7 +125,9 @@ TEST(Ssim, IsSymmetricAndNegativeForTheOpposite) {
 
 TEST(Ssim, RadianceIsShownWithExposureAndCurve) {
   const Picture a = pattern(20, 15, 7);
-  gatelight::testing::expect_shown_pictures<SsimOptions>(a, disturbed(a, 8), measure);
+  gatelight::testing::expect_shown_pictures<SsimOptions>(
+      a, disturbed(a, 8),
+      [](const Picture& x, const Picture& y, const SsimOptions& o) { return measure(x, y, o); });
 }
 
 TEST(Ssim, TheSameBitsForAnyNumberOfThreads) {
