@@ -6,6 +6,7 @@
 
 // The workgroup size that every Vulkan 1.2 device supports.
 const uint kThreads = 128;
+layout(local_size_x = kThreads) in;
 
 layout(buffer_reference, std430, buffer_reference_align = 4) buffer Floats { float at[]; };
 layout(buffer_reference, std430, buffer_reference_align = 4) buffer Words { uint at[]; };

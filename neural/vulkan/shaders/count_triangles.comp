@@ -1,11 +1,8 @@
 #version 460
 // Increments the count of each triangle with an accepted record, once per step: the thread that stamps it
 // first does.
-#extension GL_GOOGLE_include_directive : require
 
 #include "blocks.glsl"
-
-layout(local_size_x = kThreads) in;
 
 void main() {
   const uint record = flat_thread();

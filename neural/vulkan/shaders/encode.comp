@@ -1,7 +1,6 @@
 #version 460
 // Encodes points as network inputs, one point per thread: the status of the record, its nodes and weights,
 // the interpolated features and the other inputs.
-#extension GL_GOOGLE_include_directive : require
 
 #include "blocks.glsl"
 #include "gate.glsl"
@@ -9,7 +8,6 @@
 #include "hash_grid.glsl"
 #include "inputs.glsl"
 
-layout(local_size_x = kThreads) in;
 layout(constant_id = 0) const uint kEncoding = 0;  // none, gate, hash grid
 layout(constant_id = 1) const bool kHalves = false;
 layout(constant_id = 2) const bool kTraining = false;

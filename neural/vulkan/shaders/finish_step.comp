@@ -1,10 +1,7 @@
 #version 460
 // Sums the losses of all tiles in one order and counts the step. One workgroup.
-#extension GL_GOOGLE_include_directive : require
 
 #include "blocks.glsl"
-
-layout(local_size_x = kThreads) in;
 
 shared float sums[kThreads];
 

@@ -1,11 +1,9 @@
 #version 460
 // Answers queries: a forward pass over tiles of points. Layers alternate between two sets of rows.
-#extension GL_GOOGLE_include_directive : require
 
 #include "blocks.glsl"
 #include "network.glsl"
 
-layout(local_size_x = kThreads) in;
 layout(constant_id = 6) const uint kTile = 1;
 layout(constant_id = 7) const float kSlope = 0.01;
 layout(constant_id = 8) const bool kRounded = false;

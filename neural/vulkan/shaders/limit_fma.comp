@@ -1,10 +1,7 @@
 #version 460
 // Measures arithmetic: each thread makes Push::argument rounds of 64 operations.
-#extension GL_GOOGLE_include_directive : require
 
 #include "blocks.glsl"
-
-layout(local_size_x = kThreads) in;
 
 void main() {
   const uint thread = flat_thread();

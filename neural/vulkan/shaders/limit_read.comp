@@ -1,10 +1,7 @@
 #version 460
 // Measures sequential reads: all threads together read Push::argument vectors of Batch::forward.
-#extension GL_GOOGLE_include_directive : require
 
 #include "blocks.glsl"
-
-layout(local_size_x = kThreads) in;
 
 void main() {
   const uint threads = gl_NumWorkGroups.x * gl_NumWorkGroups.y * kThreads;

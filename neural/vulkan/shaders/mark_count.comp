@@ -1,12 +1,9 @@
 #version 460
 // Counts the pieces and runs that begin in each block, [kind][block].
-#extension GL_GOOGLE_include_directive : require
 
 #include "blocks.glsl"
 #include "runs.glsl"
 #include "scan.glsl"
-
-layout(local_size_x = kThreads) in;
 
 void main() {
   const uint block = flat_group();

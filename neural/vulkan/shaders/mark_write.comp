@@ -1,13 +1,10 @@
 #version 460
 // Writes the start of each piece, and the node and first piece of each run. Each list ends with the start of
 // the next, non-existing entry.
-#extension GL_GOOGLE_include_directive : require
 
 #include "blocks.glsl"
 #include "runs.glsl"
 #include "scan.glsl"
-
-layout(local_size_x = kThreads) in;
 
 void main() {
   const uint block = flat_group();

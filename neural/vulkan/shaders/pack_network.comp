@@ -1,13 +1,10 @@
 #version 460
 // Packs the network's parameters for products, one parameter per thread. Padding stays zero. Push::argument
 // has the bits kPackBackward (backward weights too), kPackAveraged (of the averages) and kPackRounded (to bf16).
-#extension GL_GOOGLE_include_directive : require
 
 #define GATELIGHT_SHAPE_OF_MODEL
 #include "blocks.glsl"
 #include "network.glsl"
-
-layout(local_size_x = kThreads) in;
 
 bool wants(uint what) {
   return (argument & what) != 0u;

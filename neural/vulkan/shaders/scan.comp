@@ -1,12 +1,9 @@
 #version 460
 // Exclusive prefix sums of arrays in Batch::counts, one workgroup per array of Push::argument words. Its
 // total goes to word Push::other + array of the statistics.
-#extension GL_GOOGLE_include_directive : require
 
 #include "blocks.glsl"
 #include "scan.glsl"
-
-layout(local_size_x = kThreads) in;
 
 const uint kEach = 8;
 const uint kNowhere = 0xffffffffu;

@@ -1,11 +1,8 @@
 #version 460
 // Counts the references of each block by digit, [digit][block].
-#extension GL_GOOGLE_include_directive : require
 
 #include "blocks.glsl"
 #include "sort.glsl"
-
-layout(local_size_x = kThreads) in;
 
 shared uint digit_counts[kDigits];
 

@@ -1,13 +1,10 @@
 #version 460
 // Moves each reference to its place: the start of its digit in this block, plus the number of such references
 // before it in the block.
-#extension GL_GOOGLE_include_directive : require
 
 #include "blocks.glsl"
 #include "scan.glsl"
 #include "sort.glsl"
-
-layout(local_size_x = kThreads) in;
 
 const uint kPairs = kDigits / 2u;
 const uint kEntries = kPairs * kThreads;

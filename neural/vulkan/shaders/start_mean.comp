@@ -2,12 +2,9 @@
 // Before the first step, sets the output biases to the mean target of the accepted records
 // (neural/learning/start_mean.h), so that the network starts with the right brightness. One workgroup.
 // Push::argument is the index of the first output bias.
-#extension GL_GOOGLE_include_directive : require
 
 #include "blocks.glsl"
 #include "scan.glsl"
-
-layout(local_size_x = kThreads) in;
 
 shared float sums[kThreads];
 

@@ -1,10 +1,8 @@
 #version 460
 // Sums weight times gradient over the references of each piece, in their order, one feature per thread.
-#extension GL_GOOGLE_include_directive : require
 
 #include "blocks.glsl"
 
-layout(local_size_x = kThreads) in;
 layout(constant_id = 0) const uint kFeatures = 1;
 layout(constant_id = 1) const bool kPerTriangle = false;
 

@@ -1,12 +1,10 @@
 #version 460
 // Forward, loss and backward over tiles of records in shared memory. In the backward pass gradients overwrite
 // their values. A workgroup adds the weight gradients of its tiles to its own sums.
-#extension GL_GOOGLE_include_directive : require
 
 #include "blocks.glsl"
 #include "network.glsl"
 
-layout(local_size_x = kThreads) in;
 layout(constant_id = 6) const uint kTile = 1;
 layout(constant_id = 7) const float kSlope = 0.01;
 layout(constant_id = 8) const bool kRelativeLoss = true;

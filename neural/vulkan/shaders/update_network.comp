@@ -1,14 +1,11 @@
 #version 460
 // Sums the weight gradients of all workgroups in one order, then applies Adam. A workgroup has 8 parameters
 // with sixteen threads each; a thread adds every sixteenth sum.
-#extension GL_GOOGLE_include_directive : require
 
 #define GATELIGHT_SHAPE_OF_MODEL
 #include "blocks.glsl"
 #include "adam.glsl"
 #include "network.glsl"
-
-layout(local_size_x = kThreads) in;
 
 const uint kSlices = 16;
 const uint kColumns = kThreads / kSlices;

@@ -1,13 +1,11 @@
 #version 460
 // Applies Adam to feature vectors and updates their averages, one node per thread: to touched nodes with
 // their own counters, or to every node with the global step count (dense).
-#extension GL_GOOGLE_include_directive : require
 
 #include "blocks.glsl"
 #include "adam.glsl"
 #include "halves.glsl"
 
-layout(local_size_x = kThreads) in;
 layout(constant_id = 0) const uint kFeatures = 1;
 layout(constant_id = 1) const bool kPerTriangle = false;
 layout(constant_id = 2) const bool kDense = false;
