@@ -1,6 +1,7 @@
 #include "neural/layout/layout_checks.h"
 
 #include <fmt/format.h>
+#include <tbb/blocked_range.h>
 #include <tbb/parallel_reduce.h>
 
 #include <algorithm>
@@ -12,7 +13,6 @@
 #include "base/errors.h"
 #include "base/parallel/loops.h"
 #include "base/require.h"
-#include "neural/layout/index_range.h"
 
 namespace gatelight::neural {
 
@@ -28,8 +28,8 @@ void require_positive(const char* option, float value) {
 template <class Bad>
 std::size_t find_first(std::size_t count, const Bad& bad) {
   return tbb::parallel_reduce(
-      IndexRange(0, count, 16384), kNotFound,
-      [&](const IndexRange& range, std::size_t first) {
+      tbb::blocked_range<std::size_t>(0, count, 16384), kNotFound,
+      [&](const tbb::blocked_range<std::size_t>& range, std::size_t first) {
         for (std::size_t i = range.begin(); i != range.end() && i < first; ++i)
           if (bad(i)) return i;
         return first;

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "neural/vulkan/barrier.h"
+#include "neural/vulkan/submission.h"
 
 namespace gatelight::neural::vulkan {
 
@@ -10,8 +10,7 @@ Commands::Commands(const vk::raii::CommandBuffer& buffer, Machine& machine, Addr
     : buffer_(buffer), machine_(machine) {
   push_.model = model;
   push_.batch = batch;
-  buffer_.begin(vk::CommandBufferBeginInfo(vk::CommandBufferUsageFlagBits::eOneTimeSubmit));
-  barrier();
+  begin_commands(buffer_);
 }
 
 void Commands::dispatch(Shader shader, std::span<const std::uint32_t> constants, std::uint64_t groups,
@@ -49,10 +48,7 @@ void Commands::stamp(const vk::raii::QueryPool& pool, std::uint32_t number) {
 
 void Commands::submit(const vk::raii::Fence& fence) {
   machine_.count_submission();
-  barrier();
-  buffer_.end();
-  const vk::CommandBuffer handle = *buffer_;
-  machine_.device().queue().submit(vk::SubmitInfo({}, {}, handle), *fence);
+  submit_commands(machine_.device(), buffer_, fence);
 }
 
 }  // namespace gatelight::neural::vulkan

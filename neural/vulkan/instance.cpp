@@ -75,8 +75,7 @@ DeviceKind kind_of(vk::PhysicalDeviceType type) {
 }  // namespace
 
 Instance::Instance(bool validate, std::shared_ptr<ValidationMessages> messages)
-    : validate_(validate),
-      messages_(messages != nullptr ? std::move(messages) : std::make_shared<ValidationMessages>()),
+    : messages_(messages != nullptr ? std::move(messages) : std::make_shared<ValidationMessages>()),
       context_(open_loader()),
       instance_(make_instance(context_, validate, messages_.get())),
       messenger_(nullptr) {

@@ -19,12 +19,10 @@ class Instance {
   Instance(bool validate, std::shared_ptr<ValidationMessages> messages);
 
   std::vector<vk::raii::PhysicalDevice> devices() const;
-  bool validates() const { return validate_; }
   /// Throws ValidationFailed with the first message since the last check, if any.
   void check_messages();
 
  private:
-  bool validate_;
   std::shared_ptr<ValidationMessages> messages_;
   vk::raii::Context context_;
   vk::raii::Instance instance_;

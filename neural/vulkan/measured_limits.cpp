@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "neural/vulkan/barrier.h"
 #include "neural/vulkan/commands.h"
 #include "neural/vulkan/errors.h"
 #include "neural/vulkan/machine.h"

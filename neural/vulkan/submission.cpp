@@ -1,5 +1,7 @@
 #include "neural/vulkan/submission.h"
 
+#include <limits>
+
 namespace gatelight::neural::vulkan {
 
 Submission::Submission(const Device& device)
@@ -25,6 +27,36 @@ double seconds_between(const Device& device, const Submission& submission, std::
   // Counters with fewer bits wrap.
   const std::uint64_t passed = (ticks(to) - ticks(from)) & device.limits().tick_mask;
   return static_cast<double>(passed) * device.limits().nanoseconds_per_tick * 1e-9;
+}
+
+void full_barrier(const vk::raii::CommandBuffer& commands) {
+  using Access = vk::AccessFlagBits;
+  using Stage = vk::PipelineStageFlagBits;
+  const vk::MemoryBarrier barrier(Access::eShaderWrite | Access::eTransferWrite,
+                                  Access::eShaderRead | Access::eShaderWrite | Access::eTransferRead |
+                                      Access::eTransferWrite | Access::eHostRead);
+  commands.pipelineBarrier(Stage::eComputeShader | Stage::eTransfer,
+                           Stage::eComputeShader | Stage::eTransfer | Stage::eHost, {}, barrier, {}, {});
+}
+
+void begin_commands(const vk::raii::CommandBuffer& commands) {
+  commands.begin(vk::CommandBufferBeginInfo(vk::CommandBufferUsageFlagBits::eOneTimeSubmit));
+  full_barrier(commands);
+}
+
+void submit_commands(const Device& device, const vk::raii::CommandBuffer& commands,
+                     const vk::raii::Fence& fence) {
+  full_barrier(commands);
+  commands.end();
+  const vk::CommandBuffer handle = *commands;
+  device.queue().submit(vk::SubmitInfo({}, {}, handle), *fence);
+}
+
+void wait_for(const Device& device, const vk::raii::Fence& fence) {
+  constexpr std::uint64_t kForever = std::numeric_limits<std::uint64_t>::max();
+  while (device.handle().waitForFences(*fence, VK_TRUE, kForever) == vk::Result::eTimeout) {
+  }
+  device.handle().resetFences(*fence);
 }
 
 }  // namespace gatelight::neural::vulkan

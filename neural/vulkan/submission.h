@@ -1,5 +1,6 @@
 #pragma once
-// An entry in the ring of work in progress: a batch to upload, its commands, and its results.
+// An entry in the ring of work in progress: a batch to upload, its commands, and its results. Barriers and
+// fences.
 
 #include <cstdint>
 
@@ -26,5 +27,19 @@ struct Submission {
 /// The device's time between two written stamps; 0 without timestamps.
 double seconds_between(const Device& device, const Submission& submission, std::uint32_t from,
                        std::uint32_t to);
+
+// One global barrier serves the whole backend: on a queue with only compute and copies, a finer barrier would
+// order the same work.
+
+/// Later commands, and the host after a fence, see everything that earlier shaders and copies wrote.
+void full_barrier(const vk::raii::CommandBuffer& commands);
+
+/// Begins recording. The commands run after everything submitted before.
+void begin_commands(const vk::raii::CommandBuffer& commands);
+/// Ends recording and submits to the queue.
+void submit_commands(const Device& device, const vk::raii::CommandBuffer& commands,
+                     const vk::raii::Fence& fence);
+/// Waits for the fence and resets it.
+void wait_for(const Device& device, const vk::raii::Fence& fence);
 
 }  // namespace gatelight::neural::vulkan

@@ -19,8 +19,6 @@ class Table {
         std::uint64_t longest_part);
 
   bool empty() const { return parts_.empty(); }
-  std::uint64_t entries() const { return entries_; }
-  std::uint32_t stride() const { return stride_; }
   std::uint64_t bytes() const { return 4 * entries_ * stride_; }
   TableBlock block() const { return {addresses_.address(), shift_, stride_}; }
 

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cstring>
 
-#include "neural/vulkan/barrier.h"
-
 namespace gatelight::neural::vulkan {
 
 namespace {
@@ -16,13 +14,9 @@ constexpr std::uint64_t kStagingBytes = std::uint64_t{8} << 20;
 template <class Record>
 void Transfer::submit(Record&& record) {
   const vk::raii::CommandBuffer& commands = work_.commands.front();
-  commands.begin(vk::CommandBufferBeginInfo(vk::CommandBufferUsageFlagBits::eOneTimeSubmit));
-  full_barrier(commands);
+  begin_commands(commands);
   record(commands);
-  full_barrier(commands);
-  commands.end();
-  const vk::CommandBuffer handle = *commands;
-  device_.queue().submit(vk::SubmitInfo({}, {}, handle), *work_.fence);
+  submit_commands(device_, commands, work_.fence);
   wait_for(device_, work_.fence);
 }
 

@@ -12,7 +12,6 @@
 
 #include "base/errors.h"
 #include "neural/model/checks.h"
-#include "neural/vulkan/barrier.h"
 #include "neural/vulkan/errors.h"
 #include "neural/vulkan/machine.h"
 #include "neural/vulkan/model_tables.h"

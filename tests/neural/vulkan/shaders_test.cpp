@@ -1,7 +1,6 @@
 // Single shaders against the reference: the arrays that encode and train_network write.
 
 #include "neural/reference/loss.h"
-#include "neural/vulkan/barrier.h"
 #include "neural/vulkan/feature_store.h"
 #include "neural/vulkan/machine.h"
 #include "neural/vulkan/model_tables.h"

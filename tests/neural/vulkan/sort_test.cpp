@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <numeric>
 
-#include "neural/vulkan/barrier.h"
 #include "neural/vulkan/machine.h"
 #include "neural/vulkan/sort_commands.h"
 #include "neural/vulkan/step_scratch.h"
