@@ -46,8 +46,8 @@ std::string encode_base64(const std::vector<std::uint8_t>& bytes) {
 }  // namespace
 
 std::string picture_uri(const renderer::Picture& picture, const renderer::DisplayOptions& display) {
-  constexpr int kMostWidth = 1280, kQuality = 88;
-  const int side = (picture.width + kMostWidth - 1) / kMostWidth;
+  constexpr int kMaxWidth = 1280, kQuality = 88;
+  const int side = (picture.width + kMaxWidth - 1) / kMaxWidth;
   const int columns = picture.width / side, rows = std::max(1, picture.height / side);
   std::vector<std::uint8_t> bytes = renderer::display_bytes(picture, display);
   if (side > 1) bytes = shrink(bytes, picture.width, side, columns, rows);

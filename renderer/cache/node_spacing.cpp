@@ -12,7 +12,7 @@ constexpr int kGreatestExponent = 3;
 
 /// Largest number of nodes of an instance for each point on it. This is a hundred times what a wholly visible
 /// instance needs; it keeps a facade beside the camera from taking all memory.
-constexpr double kMostNodes = 3.0;
+constexpr double kMaxNodes = 3.0;
 
 /// The median of the values; zero where there are none.
 float median(std::vector<float> values) {
@@ -44,7 +44,7 @@ NodeSpacing PixelWidths::spacing(float pixels, std::span<const double> areas) co
     const std::vector<float>& points = camera_[i].empty() ? bounce_[i] : camera_[i];
     const float width = median(points);
     if (!is_width(width)) continue;
-    const double least = std::sqrt(areas[i] / (kMostNodes * static_cast<double>(points.size())));
+    const double least = std::sqrt(areas[i] / (kMaxNodes * static_cast<double>(points.size())));
     const double wanted = std::max(static_cast<double>(pixels * width), least);
     const auto exponent =
         static_cast<int>(std::lround(std::log2(wanted / static_cast<double>(result.spacing))));

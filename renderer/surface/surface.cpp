@@ -95,10 +95,10 @@ class Frame {
 void offset_shadow_terminator(Surface& s, const Vec3 (&p)[3], const Vec3 (&n)[3], const Vec3& weights,
                               const Vec3& wo) {
   // A smooth normal that is further from the triangle's comes from a file whose normals are wrong.
-  constexpr float kLeastCosine = 0.1f;
+  constexpr float kMinRaiseCosine = 0.1f;
   const float cosine = s.smooth_normal.dot(s.geometric_normal);
   const Vec3 raise = terminator_raise(s.position, p, n, weights);
-  if (!(raise.dot(s.geometric_normal) > s.offset && cosine > kLeastCosine &&
+  if (!(raise.dot(s.geometric_normal) > s.offset && cosine > kMinRaiseCosine &&
         s.smooth_normal.dot(wo) > 0.0f)) {
     return;
   }

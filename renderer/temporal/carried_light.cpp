@@ -83,7 +83,7 @@ void match_brightness(const FrameSamples& frame, std::vector<ReprojectedSample>&
     const float noise = variance[i] / there[i] / (there[i] * kArea);
     const float known = std::max(difference * difference - kStandardErrors * kStandardErrors * noise, 0.0f);
     const float share = known > 0.0f ? known / (known + noise) : 0.0f;
-    carried[i].color *= std::clamp(1.0f + share * difference, 1.0f / kMostRatio, kMostRatio);
+    carried[i].color *= std::clamp(1.0f + share * difference, 1.0f / kMaxRatio, kMaxRatio);
   });
 }
 
@@ -127,7 +127,7 @@ void mix_light(const CarriedLight& carried, const PixelRect& rect, std::vector<f
     mean_around(now);
     for (std::size_t i = 0; i < pixels; ++i) {
       if (!(there[i] > 0.0f) || !(now[i] > 0.0f)) continue;
-      const float ratio = std::clamp(before[i] / now[i], 1.0f / kMostRatio, kMostRatio);
+      const float ratio = std::clamp(before[i] / now[i], 1.0f / kMaxRatio, kMaxRatio);
       float& color = denoised[3 * i + c];
       const float as_bright = color * ratio, low = weight[i] / there[i];
       const float high = std::min(carried.weight[i], kMaxHigh);

@@ -39,7 +39,7 @@ inline constexpr float kMaxEarlier = 12.0f;
 /// The carried light is mixed in by its full share in means over so many pixels around, in each direction.
 inline constexpr int kAroundLow = 4;
 /// Most change of these means.
-inline constexpr float kMostRatio = 2.0f;
+inline constexpr float kMaxRatio = 2.0f;
 
 /// Luminance of the light on a surface, without the surface's colour.
 float light_of(const float* color, const float* albedo);

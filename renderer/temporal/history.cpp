@@ -20,7 +20,7 @@ constexpr float kMaxAcross = 1.0f, kMaxAlong = 3.0f;
 /// comes nearer.
 constexpr int kAroundEdge = 2;
 /// The cosine of normals below which they belong to different surfaces.
-constexpr float kLeastCosine = 0.9f;
+constexpr float kMinNormalCosine = 0.9f;
 /// Pixels around, in each direction, whose probes are compared. Their light is the same up to the first
 /// relative change, and another from the second on.
 constexpr int kAroundProbe = 2;
@@ -31,7 +31,7 @@ constexpr float kMaxError = 0.01f, kOther = 0.1f;
 
 bool same_surface(const VisiblePoint& there, const VisiblePoint& now, const EarlierPoint& earlier) {
   if (!there.hit || there.hit.instance != now.hit.instance || there.layers != now.layers) return false;
-  if (there.normal.dot(earlier.normal) < kLeastCosine) return false;
+  if (there.normal.dot(earlier.normal) < kMinNormalCosine) return false;
   const Vec3 apart = there.position - earlier.position;
   const float width = std::max(there.width, now.width);
   const float across = std::abs(apart.dot(earlier.normal));
@@ -134,7 +134,7 @@ class Reprojector {
     const std::size_t x = i % width;
     const auto differs = [&](std::size_t j) {
       const VisiblePoint &a = points_.now[i], &b = points_.now[j];
-      if (a.hit.instance != b.hit.instance || a.normal.dot(b.normal) < kLeastCosine) return true;
+      if (a.hit.instance != b.hit.instance || a.normal.dot(b.normal) < kMinNormalCosine) return true;
       return std::abs((a.position - b.position).dot(a.normal)) > 2.0f * a.width;
     };
     return (x > 0 && differs(i - 1)) || (x + 1 < width && differs(i + 1)) ||
@@ -180,7 +180,7 @@ class Reprojector {
       for (std::size_t c = 0; c < 3; ++c) {
         if (!(before[c][i] > 0.0f)) continue;
         carried_[i].color[static_cast<Eigen::Index>(c)] *=
-            std::clamp(now[c][i] / before[c][i], 1.0f / kMostRatio, kMostRatio);
+            std::clamp(now[c][i] / before[c][i], 1.0f / kMaxRatio, kMaxRatio);
       }
     });
   }

@@ -12,7 +12,7 @@ namespace gatelight::renderer {
 namespace {
 
 /// Mirrors and panes that are followed.
-constexpr int kMostPassed = 8;
+constexpr int kMaxPasses = 8;
 /// The same with blended surfaces, where anything moves.
 constexpr int kMaxMet = 32;
 /// What has less weight in a pixel's light is not looked for.
@@ -64,7 +64,7 @@ class Tracer {
     if (finds_changes_) points.changes.resize(points.now.size());
   }
 
-  int most_passed() const { return meets_all_ ? kMaxMet : kMostPassed; }
+  int most_passed() const { return meets_all_ ? kMaxMet : kMaxPasses; }
 
   PixelPath start(std::size_t pixel, const CameraRay& from) const {
     PixelPath path{.pixel = pixel, .ray = from.ray, .cone = from.cone, .seed = from.ray.seed};

@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::size_t kMaxWords = 40;
 constexpr std::size_t kMaxAxes = 2;
-constexpr std::size_t kMostValues = 5;
+constexpr std::size_t kMaxValues = 5;
 
 std::vector<std::string> words_of(Bytes bytes) {
   std::vector<std::string> words(1);
@@ -48,11 +48,11 @@ void plan_sweep(const std::vector<std::string>& words) {
   for (const std::string& word : words) {
     const auto values = static_cast<std::size_t>(std::count(word.begin(), word.end(), ',') +
                                                  std::count(word.begin(), word.end(), ';'));
-    if (word.find('=') != std::string::npos && sweep.vary.size() < kMaxAxes && values < kMostValues)
+    if (word.find('=') != std::string::npos && sweep.vary.size() < kMaxAxes && values < kMaxValues)
       sweep.vary.push_back(word);
-    else if (values < kMostValues && sweep.vary.empty())
+    else if (values < kMaxValues && sweep.vary.empty())
       sweep.train_steps = word;
-    else if (values < kMostValues)
+    else if (values < kMaxValues)
       sweep.seeds = word;
   }
   plan_text(apps::make_plan(apps::make_request(sweep)));
