@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
+#include "scene/material_fields.h"
 #include "scene/tangents.h"
-#include "scene/texture_slots.h"
 #include "scene/vertex_repair.h"
 
 namespace gatelight::scene {

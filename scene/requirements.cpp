@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "scene/material_fields.h"
 #include "scene/nested_volumes.h"
-#include "scene/texture_slots.h"
 
 namespace gatelight::scene {
 namespace {

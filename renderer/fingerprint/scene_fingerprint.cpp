@@ -11,7 +11,7 @@
 
 #include "base/errors.h"
 #include "base/file/digest.h"
-#include "scene/texture_slots.h"
+#include "scene/material_fields.h"
 
 namespace gatelight::renderer {
 namespace {

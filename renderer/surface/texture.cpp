@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "renderer/image/srgb.h"
-#include "scene/texture_slots.h"
+#include "scene/material_fields.h"
 
 namespace gatelight::renderer {
 

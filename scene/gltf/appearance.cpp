@@ -4,7 +4,7 @@
 #include "scene/gltf/load_each.h"
 #include "scene/gltf/materials.h"
 #include "scene/gltf/model.h"
-#include "scene/texture_slots.h"
+#include "scene/material_fields.h"
 
 namespace gatelight::scene::gltf {
 namespace {

@@ -7,41 +7,15 @@
 #include <nlohmann/json.hpp>
 #include <span>
 
+#include "scene/gltf/schema.h"
+
 namespace gatelight::scene::gltf {
 namespace {
 
 using nlohmann::json;
 
-/// For KHR_texture_basisu and MSFT_texture_dds only the fallback picture of a texture is read.
-constexpr std::string_view kSupported[] = {
-    "EXT_lights_image_based",
-    "EXT_mesh_gpu_instancing",
-    "EXT_meshopt_compression",
-    "EXT_texture_webp",
-    "KHR_animation_pointer",
-    "KHR_draco_mesh_compression",
-    "KHR_lights_punctual",
-    "KHR_materials_anisotropy",
-    "KHR_materials_clearcoat",
-    "KHR_materials_diffuse_transmission",
-    "KHR_materials_dispersion",
-    "KHR_materials_emissive_strength",
-    "KHR_materials_ior",
-    "KHR_materials_iridescence",
-    "KHR_materials_pbrSpecularGlossiness",
-    "KHR_materials_sheen",
-    "KHR_materials_specular",
-    "KHR_materials_transmission",
-    "KHR_materials_unlit",
-    "KHR_materials_variants",
-    "KHR_materials_volume",
-    "KHR_mesh_quantization",
-    "KHR_meshopt_compression",
-    "KHR_node_visibility",
-    "KHR_texture_basisu",
-    "KHR_texture_transform",
-    "MSFT_texture_dds",
-};
+/// Supported ones without a member of their own.
+constexpr std::string_view kWithoutMembers[] = {"KHR_animation_pointer", "KHR_mesh_quantization"};
 
 /// Unsupported ones that no still picture needs: physics, sound, interaction, other data about the
 /// scene, levels of detail, and hints.
@@ -69,13 +43,21 @@ bool is_one_of(std::span<const std::string_view> names, std::string_view name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
+/// Whether the schema knows it. For KHR_texture_basisu and MSFT_texture_dds only the fallback picture of a
+/// texture is read.
+bool is_supported(std::string_view name) {
+  const auto has = [&](const Rule& rule) { return rule.owner.ends_with(".extensions") && rule.name == name; };
+  const std::span<const Rule> rules = schema_rules();
+  return is_one_of(kWithoutMembers, name) || std::any_of(rules.begin(), rules.end(), has);
+}
+
 }  // namespace
 
 void check_extensions(const json& root, const std::vector<std::string>& ignored, std::string_view file,
                       Warnings& warnings) {
   const json required = root.value("extensionsRequired", json::array());
   for (const std::string name : required) {
-    const bool passes = is_one_of(kSupported, name) || is_one_of(kHarmless, name) ||
+    const bool passes = is_supported(name) || is_one_of(kHarmless, name) ||
                         std::find(ignored.begin(), ignored.end(), name) != ignored.end();
     if (!passes) {
       throw make_error(
@@ -87,7 +69,7 @@ void check_extensions(const json& root, const std::vector<std::string>& ignored,
   }
   for (const json& names : {required, root.value("extensionsUsed", json::array())}) {
     for (const std::string name : names) {
-      if (!is_one_of(kSupported, name))
+      if (!is_supported(name))
         warnings.add(fmt::format("the extension {} is not supported and ignored", name));
     }
   }

@@ -5,8 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
+#include <string>
+#include <string_view>
+#include <variant>
 
 #include "scene/gltf/model.h"
+#include "scene/material_fields.h"
 
 namespace gatelight::scene::gltf {
 namespace {
@@ -74,76 +78,53 @@ class Converter {
     m.ior = 0.0f;
     m.specular_color =
         unit(vector_or<Eigen::Vector3d>(old, "specularFactor", Eigen::Vector3d::Ones()), "specularFactor");
-    m.roughness = 1.0f - unit(old, "glossinessFactor", 1.0);
+    m.roughness = 1.0f - unit(number_or(old, "glossinessFactor", 1.0), "glossinessFactor");
     m.specular_color_texture = m.glossiness_texture = slot(old, "specularGlossinessTexture");
   }
 
-  void read_extensions(const tinygltf::ExtensionMap& material, Material& m) {
-    m.unlit = find_extension(material, "KHR_materials_unlit") != nullptr;
-    if (const Value* e = find_extension(material, "KHR_materials_emissive_strength")) {
+  void read_extensions(const tinygltf::ExtensionMap& extensions, Material& m) {
+    static const Material kDefaults;
+    for (const MaterialField& field : material_fields()) {
+      const Value* const extension = find_extension(extensions, field.extension);
+      if (!extension) continue;
+      const auto read_member = [&](auto member) { m.*member = read(*extension, field, kDefaults.*member); };
+      std::visit(read_member, field.member);
+    }
+    if (const Value* e = find_extension(extensions, "KHR_materials_emissive_strength")) {
       m.emission *= float_or(*e, "emissiveStrength", 1.0f);
       if (!m.emission.allFinite())
         document_.fail(where_, "emissiveStrength too large, expected finite emission");
     }
-    if (const Value* e = find_extension(material, "KHR_materials_ior")) {
-      const float ior = float_or(*e, "ior", 1.5f);
-      m.ior = ior == 0.0f ? 0.0f : std::max(ior, 1.0f);
-      if (m.ior != ior) warnings_.add(where_ + ".ior: below 1, taken as 1");
-    }
-    if (const Value* e = find_extension(material, "KHR_materials_specular")) {
-      m.specular = unit(*e, "specularFactor", 1.0);
-      m.specular_texture = slot(*e, "specularTexture");
-      // Values above 1 are allowed: the renderer limits the reflectance at normal incidence, not the factor.
-      m.specular_color = vector_or<Color>(*e, "specularColorFactor", Color::Ones()).max(0.0f);
-      m.specular_color_texture = slot(*e, "specularColorTexture");
-    }
-    if (const Value* e = find_extension(material, "KHR_materials_transmission")) {
-      m.transmission = unit(*e, "transmissionFactor", 0.0);
-      m.transmission_texture = slot(*e, "transmissionTexture");
-    }
-    if (const Value* e = find_extension(material, "KHR_materials_diffuse_transmission")) {
-      m.diffuse_transmission = unit(*e, "diffuseTransmissionFactor", 0.0);
-      m.diffuse_transmission_texture = slot(*e, "diffuseTransmissionTexture");
-      m.diffuse_transmission_color = unit_color(*e, "diffuseTransmissionColorFactor", 1.0f);
-      m.diffuse_transmission_color_texture = slot(*e, "diffuseTransmissionColorTexture");
-    }
-    if (const Value* e = find_extension(material, "KHR_materials_volume")) {
-      // Only rasterisers need the value of the thickness; rays measure it. Its texture is not read.
-      m.thickness = float_or(*e, "thicknessFactor", 0.0f);
-      m.attenuation_distance = float_or(*e, "attenuationDistance", kInfinity);
-      m.attenuation_color = unit_color(*e, "attenuationColor", 1.0f);
-    }
-    if (const Value* e = find_extension(material, "KHR_materials_dispersion"))
-      m.dispersion = float_or(*e, "dispersion", 0.0f);
-    if (const Value* e = find_extension(material, "KHR_materials_iridescence")) {
-      m.iridescence = unit(*e, "iridescenceFactor", 0.0);
-      m.iridescence_texture = slot(*e, "iridescenceTexture");
-      const float ior = float_or(*e, "iridescenceIor", 1.3f);
-      m.film_ior = std::max(ior, 1.0f);
-      if (m.film_ior != ior) warnings_.add(where_ + ".iridescenceIor: below 1, taken as 1");
-      m.film_thickness_minimum = float_or(*e, "iridescenceThicknessMinimum", 100.0f);
-      m.film_thickness_maximum = float_or(*e, "iridescenceThicknessMaximum", 400.0f);
-      m.film_thickness_texture = slot(*e, "iridescenceThicknessTexture");
-    }
-    if (const Value* e = find_extension(material, "KHR_materials_anisotropy")) {
-      m.anisotropy = unit(*e, "anisotropyStrength", 0.0);
-      m.anisotropy_rotation = float_or(*e, "anisotropyRotation", 0.0f);
-      m.anisotropy_texture = slot(*e, "anisotropyTexture");
-    }
-    if (const Value* e = find_extension(material, "KHR_materials_clearcoat")) {
-      m.clearcoat = unit(*e, "clearcoatFactor", 0.0);
-      m.clearcoat_texture = slot(*e, "clearcoatTexture");
-      m.clearcoat_roughness = unit(*e, "clearcoatRoughnessFactor", 0.0);
-      m.clearcoat_roughness_texture = slot(*e, "clearcoatRoughnessTexture");
-      m.clearcoat_normal_texture = slot(*e, "clearcoatNormalTexture");
-      m.clearcoat_normal_scale = normal_scale(*e, "clearcoatNormalTexture");
-    }
-    if (const Value* e = find_extension(material, "KHR_materials_sheen")) {
-      m.sheen_color = unit_color(*e, "sheenColorFactor", 0.0f);
-      m.sheen_color_texture = slot(*e, "sheenColorTexture");
-      m.sheen_roughness = unit(*e, "sheenRoughnessFactor", 0.0);
-      m.sheen_roughness_texture = slot(*e, "sheenRoughnessTexture");
-    }
+  }
+
+  float read(const Value& extension, const MaterialField& field, float fallback) {
+    const FieldRange& range = field.range;
+    const double number = number_at(extension, field.property, static_cast<double>(fallback));
+    if (range.max == 1.0) return unit(number, field.property);
+    const auto value = static_cast<float>(number);
+    const auto least = static_cast<float>(range.min);
+    if (!(least > 0.0f) || value >= least || (range.or_zero && value == 0.0f)) return value;
+    warnings_.add(fmt::format("{}.{}: below {:g}, taken as {:g}", where_, field.property, least, least));
+    return least;
+  }
+
+  Color read(const Value& extension, const MaterialField& field, const Color& fallback) {
+    const auto color = vector_or<Color>(extension, field.property, fallback);
+    if (field.range.max == 1.0) return unit(color.matrix().cast<double>(), field.property);
+    return color.max(0.0f);
+  }
+
+  TextureSlot read(const Value& extension, const MaterialField& field, const TextureSlot&) {
+    return slot(extension, field.property);
+  }
+
+  /// Of an extension without members.
+  static bool read(const Value&, const MaterialField&, bool) { return true; }
+
+  /// No extension has names and modes.
+  template <typename T>
+  static T read(const Value&, const MaterialField&, const T& fallback) {
+    return fallback;
   }
 
   /// A texture whose factor is zero has no effect: it is not decoded and need not exist.
@@ -179,17 +160,13 @@ class Converter {
     return {unit(values[0], name), unit(values[1], name), unit(values[2], name)};
   }
 
-  float unit(const Value& object, const char* name, double fallback) {
-    return unit(number_or(object, name, fallback), name);
-  }
-
-  Color unit_color(const Value& object, const char* name, float fallback) {
-    return unit(vector_or<Vec3>(object, name, Vec3::Constant(fallback)).cast<double>(), name);
-  }
-
-  static float normal_scale(const Value& object, const char* texture) {
-    const Value* info = find_member(object, texture);
-    return info ? float_or(*info, "scale", 1.0f) : 1.0f;
+  /// `path` is the name of a member, after those of the objects around it.
+  static double number_at(const Value& object, std::string_view path, double fallback) {
+    const std::size_t slash = path.find('/');
+    const std::string name(path.substr(0, slash));
+    if (slash == std::string_view::npos) return number_or(object, name.c_str(), fallback);
+    const Value* const inner = find_member(object, name.c_str());
+    return inner ? number_at(*inner, path.substr(slash + 1), fallback) : fallback;
   }
 
   TextureSlot slot(const Value& object, const char* name) {

@@ -47,7 +47,8 @@ struct Rule {  // NOLINT(clang-analyzer-optin.performance.Padding): in the order
   bool lenient = false;  ///< a wrong value counts as missing, with a warning
 };
 
-/// The whole table (schema_rules.cpp).
+/// The whole table (schema_rules.cpp), with the members of a material that extensions have
+/// (scene/material_fields.h).
 std::span<const Rule> schema_rules();
 
 /// Checks all that the given scene shows (-1: the file's default, or its first) and these animations of it,

@@ -1,4 +1,8 @@
+#include <iterator>
+#include <variant>
+
 #include "scene/gltf/schema.h"
+#include "scene/material_fields.h"
 
 namespace gatelight::scene::gltf {
 namespace {
@@ -265,65 +269,49 @@ constexpr Rule kRules[] = {
     integer("transform", "texCoord", 0, kIntLimit),
 
     object("material", "extensions", "material.extensions"),
-    object("material.extensions", "KHR_materials_unlit", "unlit"),
     object("material.extensions", "KHR_materials_emissive_strength", "emissive_strength"),
     not_negative(number("emissive_strength", "emissiveStrength")),
-    object("material.extensions", "KHR_materials_ior", "ior"),
-    not_negative(number("ior", "ior")),
-    object("material.extensions", "KHR_materials_specular", "specular"),
-    number("specular", "specularFactor"),
-    object("specular", "specularTexture", "textureInfo"),
-    numbers("specular", "specularColorFactor", 3),
-    object("specular", "specularColorTexture", "textureInfo"),
     object("material.extensions", "KHR_materials_pbrSpecularGlossiness", "specular_glossiness"),
     numbers("specular_glossiness", "diffuseFactor", 4),
     object("specular_glossiness", "diffuseTexture", "textureInfo"),
     numbers("specular_glossiness", "specularFactor", 3),
     number("specular_glossiness", "glossinessFactor"),
     object("specular_glossiness", "specularGlossinessTexture", "textureInfo"),
-    object("material.extensions", "KHR_materials_transmission", "transmission"),
-    number("transmission", "transmissionFactor"),
-    object("transmission", "transmissionTexture", "textureInfo"),
-    object("material.extensions", "KHR_materials_diffuse_transmission", "diffuse_transmission"),
-    number("diffuse_transmission", "diffuseTransmissionFactor"),
-    object("diffuse_transmission", "diffuseTransmissionTexture", "textureInfo"),
-    numbers("diffuse_transmission", "diffuseTransmissionColorFactor", 3),
-    object("diffuse_transmission", "diffuseTransmissionColorTexture", "textureInfo"),
-    object("material.extensions", "KHR_materials_volume", "volume"),
-    not_negative(number("volume", "thicknessFactor")),
-    object("volume", "thicknessTexture", "textureInfo"),
-    positive(number("volume", "attenuationDistance")),
-    numbers("volume", "attenuationColor", 3),
-    object("material.extensions", "KHR_materials_iridescence", "iridescence"),
-    number("iridescence", "iridescenceFactor"),
-    object("iridescence", "iridescenceTexture", "textureInfo"),
-    not_negative(number("iridescence", "iridescenceIor")),
-    not_negative(number("iridescence", "iridescenceThicknessMinimum")),
-    not_negative(number("iridescence", "iridescenceThicknessMaximum")),
-    object("iridescence", "iridescenceThicknessTexture", "textureInfo"),
-    object("material.extensions", "KHR_materials_dispersion", "dispersion"),
-    not_negative(number("dispersion", "dispersion")),
-    object("material.extensions", "KHR_materials_anisotropy", "anisotropy"),
-    number("anisotropy", "anisotropyStrength"),
-    number("anisotropy", "anisotropyRotation"),
-    object("anisotropy", "anisotropyTexture", "textureInfo"),
-    object("material.extensions", "KHR_materials_clearcoat", "clearcoat"),
-    number("clearcoat", "clearcoatFactor"),
-    object("clearcoat", "clearcoatTexture", "textureInfo"),
-    number("clearcoat", "clearcoatRoughnessFactor"),
-    object("clearcoat", "clearcoatRoughnessTexture", "textureInfo"),
-    object("clearcoat", "clearcoatNormalTexture", "textureInfo"),
-    object("material.extensions", "KHR_materials_sheen", "sheen"),
-    numbers("sheen", "sheenColorFactor", 3),
-    object("sheen", "sheenColorTexture", "textureInfo"),
-    number("sheen", "sheenRoughnessFactor"),
-    object("sheen", "sheenRoughnessTexture", "textureInfo"),
+    object("KHR_materials_volume", "thicknessTexture", "textureInfo"),
 };
+
+/// Factors up to 1 and colours are clamped where they are read; other numbers below their range are refused.
+Rule rule_of_field(const MaterialField& field) {
+  const FieldRange& range = field.range;
+  if (std::holds_alternative<TextureSlot Material::*>(field.member))
+    return object(field.extension, field.property, "textureInfo");
+  if (std::holds_alternative<Color Material::*>(field.member))
+    return numbers(field.extension, field.property, 3);
+  const Rule rule = number(field.extension, field.property);
+  if (range.min < 0.0 || range.max == 1.0) return rule;
+  return range.excludes_min ? positive(rule) : not_negative(rule);
+}
+
+/// With the extensions that have members of Material. Their names are the owners of their properties.
+std::vector<Rule> all_rules() {
+  std::vector<Rule> rules(std::begin(kRules), std::end(kRules));
+  std::string_view last;
+  for (const MaterialField& field : material_fields()) {
+    const std::string_view extension = field.extension, property = field.property;
+    if (extension.empty()) continue;
+    if (extension != last) rules.push_back(object("material.extensions", extension, extension));
+    last = extension;
+    // Of a texture's scale the table has a rule.
+    if (!property.empty() && property.find('/') == std::string_view::npos) rules.push_back(rule_of_field(field));
+  }
+  return rules;
+}
 
 }  // namespace
 
 std::span<const Rule> schema_rules() {
-  return kRules;
+  static const std::vector<Rule> rules = all_rules();
+  return rules;
 }
 
 }  // namespace gatelight::scene::gltf
