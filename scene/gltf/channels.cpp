@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -38,6 +39,17 @@ std::optional<std::size_t> checked_index(const json& object, const char* name, s
 }
 
 }  // namespace
+
+std::vector<std::string_view> split_pointer(std::string_view pointer) {
+  std::vector<std::string_view> names;
+  while (pointer.starts_with('/')) {
+    pointer.remove_prefix(1);
+    const std::size_t end = std::min(pointer.find('/'), pointer.size());
+    names.push_back(pointer.substr(0, end));
+    pointer.remove_prefix(end);
+  }
+  return names;
+}
 
 std::string pointer_of(const json& channel) {
   const auto target = channel.find("target");

@@ -28,6 +28,9 @@ struct Channel {
 /// the same: /nodes/3/rotation. Empty where there is no target.
 std::string pointer_of(const nlohmann::json& channel);
 
+/// The names of a JSON pointer: nodes, 3, rotation.
+std::vector<std::string_view> split_pointer(std::string_view pointer);
+
 /// Prepares an unchecked animation for the schema: a channel becomes its pointer and its sampler. Channels
 /// of what the scene does not show become empty, so that their accessors are not read. Throws InputError
 /// for indices out of range.

@@ -1,44 +1,33 @@
 #include "scene/gltf/motion.h"
 
-#include <charconv>
 #include <string_view>
+#include <vector>
+
+#include "base/to_number.h"
 
 namespace gatelight::scene::gltf {
 namespace {
 
-/// Takes the first name off a JSON pointer.
-std::string_view next_name(std::string_view& pointer) {
-  pointer.remove_prefix(1);
-  const std::string_view name = pointer.substr(0, pointer.find('/'));
-  pointer.remove_prefix(name.size());
-  return name;
-}
+using PointerNames = std::vector<std::string_view>;
 
-std::size_t number_of(std::string_view text, std::size_t otherwise) {
-  std::size_t number = otherwise;
-  std::from_chars(text.data(), text.data() + text.size(), number);
-  return number;
-}
-
-void note_node(const Channel& channel, std::string_view rest, Motion& motion) {
-  const std::size_t count = motion.nodes.size();
-  const std::size_t index = number_of(next_name(rest), count);
-  if (index >= count) return;
+void note_node(const PointerNames& path, Motion& motion) {
+  const std::size_t index = to_number<std::size_t>(path[1]).value_or(motion.nodes.size());
+  if (index >= motion.nodes.size()) return;
   NodeMotion& node = motion.nodes[index];
-  if (rest.starts_with("/weights")) {
+  if (path[2] == "weights") {
     node.weights = true;
-  } else if (channel.pointer.ends_with("/visible")) {
+  } else if (path.back() == "visible") {
     node.visibility = true;
   } else {
     node.place = true;
   }
 }
 
-void note_mesh(const Document& document, std::string_view rest, Motion& motion) {
-  const std::size_t index = number_of(next_name(rest), document.model().meshes.size());
+void note_mesh(const Document& document, const PointerNames& path, Motion& motion) {
+  const std::optional<int> mesh = to_number<int>(path[1]);
   for (std::size_t i = 0; i < motion.nodes.size(); ++i) {
     const tinygltf::Node& node = document.model().nodes[i];
-    if (node.weights.empty() && node.mesh == static_cast<int>(index)) motion.nodes[i].weights = true;
+    if (node.weights.empty() && node.mesh == mesh) motion.nodes[i].weights = true;
   }
 }
 
@@ -47,13 +36,12 @@ void note_mesh(const Document& document, std::string_view rest, Motion& motion) 
 Motion find_motion(const Document& document) {
   Motion motion{.nodes = std::vector<NodeMotion>(document.model().nodes.size())};
   for (const Channel& channel : document.channels()) {
-    std::string_view rest = channel.pointer;
-    if (!rest.starts_with('/')) continue;
-    const std::string_view list = next_name(rest);
-    if (rest.empty()) continue;
-    if (list == "nodes") note_node(channel, rest, motion);
-    if (list == "meshes") note_mesh(document, rest, motion);
-    const bool images = rest.starts_with("/EXT_lights_image_based");
+    const PointerNames path = split_pointer(channel.pointer);
+    if (path.size() < 3) continue;
+    const std::string_view list = path[0];
+    if (list == "nodes") note_node(path, motion);
+    if (list == "meshes") note_mesh(document, path, motion);
+    const bool images = path[1] == "EXT_lights_image_based";
     motion.image_light |= list == "extensions" && images;
     motion.lights |= list == "extensions" && !images;
     motion.materials |= list == "materials";

@@ -26,17 +26,6 @@ struct ObjectMember {
 /// The value in the model. std::monostate: there is none.
 using Place = std::variant<std::monostate, double*, std::vector<double>*, ObjectMember>;
 
-std::vector<std::string_view> split_pointer(std::string_view pointer) {
-  std::vector<std::string_view> names;
-  while (pointer.starts_with('/')) {
-    pointer.remove_prefix(1);
-    const std::size_t end = std::min(pointer.find('/'), pointer.size());
-    names.push_back(pointer.substr(0, end));
-    pointer.remove_prefix(end);
-  }
-  return names;
-}
-
 /// The schema's rule of the value; null where it has none.
 const Rule* rule_of(Names path) {
   using Key = std::pair<std::string_view, std::string_view>;

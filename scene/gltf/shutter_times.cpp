@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <map>
 #include <string_view>
 
+#include "base/to_number.h"
 #include "scene/shutter.h"
 
 namespace gatelight::scene::gltf {
@@ -148,12 +148,9 @@ void ShutterTimes::note_turns(const Animator& animator, Motion& motion, Warnings
   for (NodeMotion& node : motion.nodes) node.turn = 0.0;
   for (const Animator::Track& track : animator.tracks()) {
     if (!track.curve.shape.is_rotation || !moves_in_shutter(track)) continue;
-    std::size_t node = motion.nodes.size();
-    const std::string& pointer = track.pointer;
-    std::from_chars(pointer.data() + std::string_view("/nodes/").size(), pointer.data() + pointer.size(),
-                    node);
-    if (node >= motion.nodes.size()) continue;
-    double& turn = motion.nodes[node].turn;
+    const std::optional<std::size_t> node = to_number<std::size_t>(split_pointer(track.pointer)[1]);
+    if (!node || *node >= motion.nodes.size()) continue;
+    double& turn = motion.nodes[*node].turn;
     for (std::size_t i = 0; i + 1 < moments_.size(); ++i)
       turn = std::max(turn, turn_between(track.curve, moments_[i].seconds, moments_[i + 1].seconds));
     motion.turns |= turn > 0.0;
@@ -163,7 +160,7 @@ void ShutterTimes::note_turns(const Animator& animator, Motion& motion, Warnings
       warnings.add(
           fmt::format("{}: turns by {:.0f} degrees between two of {} states of the open shutter; its "
                       "arc becomes a polygon",
-                      pointer, step * 180.0 / kPi, intervals() * parts + 1));
+                      track.pointer, step * 180.0 / kPi, intervals() * parts + 1));
   }
 }
 
