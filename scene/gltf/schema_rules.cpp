@@ -1,7 +1,8 @@
+#include "scene/gltf/schema.h"
+
 #include <iterator>
 #include <variant>
 
-#include "scene/gltf/schema.h"
 #include "scene/material_fields.h"
 
 namespace gatelight::scene::gltf {
@@ -302,7 +303,8 @@ std::vector<Rule> all_rules() {
     if (extension != last) rules.push_back(object("material.extensions", extension, extension));
     last = extension;
     // Of a texture's scale the table has a rule.
-    if (!property.empty() && property.find('/') == std::string_view::npos) rules.push_back(rule_of_field(field));
+    if (!property.empty() && property.find('/') == std::string_view::npos)
+      rules.push_back(rule_of_field(field));
   }
   return rules;
 }
