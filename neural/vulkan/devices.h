@@ -61,9 +61,6 @@ struct MachineOptions {
   bool validate = false;
   /// Receives the layer's messages, including those during destruction; may be null.
   std::shared_ptr<ValidationMessages> messages = nullptr;
-  /// For tests: simulates a lost device after this many submissions. 0 means the value of the environment
-  /// variable GATELIGHT_VULKAN_LOSE_AFTER, or never if it is unset.
-  std::uint64_t lose_after = 0;
   /// Maximum bytes of a part of the arrays by node; 0 means the device's maximum.
   std::uint64_t longest_part = 0;
 };

@@ -19,8 +19,8 @@ bool validation_wanted(const MachineOptions& options) {
   return options.validate || (variable != nullptr && *variable != '\0' && std::string_view(variable) != "0");
 }
 
-std::uint64_t submissions_before_loss(const MachineOptions& options) {
-  if (options.lose_after != 0) return options.lose_after;
+/// For tests.
+std::uint64_t submissions_before_loss() {
   const char* const variable = std::getenv("GATELIGHT_VULKAN_LOSE_AFTER");
   const std::uint64_t count = variable != nullptr ? std::strtoull(variable, nullptr, 10) : 0;
   return count != 0 ? count : std::numeric_limits<std::uint64_t>::max();
@@ -43,7 +43,7 @@ Machine::Machine(const MachineOptions& options)
       longest_part_(options.longest_part != 0
                         ? std::min(options.longest_part, device_.limits().longest_buffer)
                         : device_.limits().longest_buffer),
-      lose_after_(submissions_before_loss(options)) {}
+      lose_after_(submissions_before_loss()) {}
 
 void Machine::count_submission() {
   if (++submissions_ > lose_after_) throw vk::DeviceLostError("lost for a test");

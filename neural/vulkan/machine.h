@@ -14,7 +14,8 @@ class Machine {
   const Device& device() const { return device_; }
   Pipelines& pipelines() { return pipelines_; }
   std::uint64_t longest_part() const { return longest_part_; }
-  /// Must be called for each submission. Throws vk::DeviceLostError as MachineOptions::lose_after demands.
+  /// Must be called for each submission. Throws vk::DeviceLostError where GATELIGHT_VULKAN_LOSE_AFTER is
+  /// reached.
   void count_submission();
   /// Throws ValidationFailed if the validation layer reported a message.
   void check() { instance_.check_messages(); }

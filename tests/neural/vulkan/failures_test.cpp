@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+
 #include "neural/vulkan/machine.h"
 #include "tests/neural/vulkan/agreement.h"
 #include "tests/support/messages.h"
@@ -20,9 +22,9 @@ class VulkanFailures : public OnVulkan {};
 TEST_F(VulkanFailures, ALostDeviceIsReportedByStepsAndAnswers) {
   const ModelCase c = find_model_case("nrc");
   const OwnedBatch batch = make_batch(*c.model, 50, 1);
-  vulkan::MachineOptions options;
-  options.lose_after = 2;  // making the backend, and a step
-  const auto machine = vulkan::open_machine(options);
+  setenv("GATELIGHT_VULKAN_LOSE_AFTER", "2", 1);  // making the backend, and a step
+  const auto machine = vulkan::open_machine({});
+  unsetenv("GATELIGHT_VULKAN_LOSE_AFTER");
   const auto backend = vulkan::make_vulkan_backend(machine, c.model, {});
   EXPECT_EQ(backend->train(batch.training()).records, 50u);
   expect_message(refusal<DeviceLost>([&] { backend->train(batch.training()); }),
