@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "tests/extremes/extreme.h"
 #include "tests/support/folder_test.h"
 #include "tests/support/process.h"
 #include "tests/support/tiny_scene.h"

@@ -16,7 +16,6 @@
 namespace gatelight::tests {
 namespace {
 
-using testing::report_extreme;
 
 class FaultyDisk : public Faults {};
 
@@ -60,9 +59,6 @@ TEST_F(FaultyDisk, AFullDiskKeepsTheOldFileAndLeavesNoTemporaryFile) {
     EXPECT_EQ(left, 1u) << kind << ": a temporary file is left";
   }
   ::umount(disk.c_str());
-  report_extreme("full disk", "a tmpfs of 8 KiB; picture as EXR and PNG, statistics, checkpoint, cache",
-                 "the old file is whole, nothing is left beside it, the other picture is written",
-                 "exit 3: cannot write 'FILE': No space left on device");
 }
 
 TEST_F(FaultyDisk, AFileSizeLimitActsLikeAFullDisk) {
@@ -88,10 +84,6 @@ TEST_F(FaultyDisk, AFileSizeLimitActsLikeAFullDisk) {
     std::filesystem::remove(path("other.exr"));
   }
   EXPECT_EQ(folder.count_files(), 2u) << "a temporary file is left";
-  report_extreme(
-      "limit of file sizes", "ulimit -f at 1 and 40 kB, for the same outputs",
-      "the old file is whole; a picture that fits is written where the checkpoint or cache does not fit",
-      "exit 3: cannot write 'FILE': File too large");
 }
 
 TEST_F(FaultyDisk, AReadOnlyFolderIsRefusedBeforeTheWork) {
@@ -108,8 +100,6 @@ TEST_F(FaultyDisk, AReadOnlyFolderIsRefusedBeforeTheWork) {
   }
   std::filesystem::permissions(locked, std::filesystem::perms(0755));
   expect_failure(run_gatelight(words({"-o", scene + "/a.exr", "--quiet"})), 3, {scene});
-  report_extreme("read-only folder", "the same outputs; a file in place of the folder", "nothing is begun",
-                 "exit 3: the folder 'FOLDER' cannot be written: Permission denied");
 }
 
 TEST_F(FaultyDisk, AReadOnlyFileIsRefusedBeforeTheWork) {
@@ -123,9 +113,6 @@ TEST_F(FaultyDisk, AReadOnlyFileIsRefusedBeforeTheWork) {
     expect_failure(output, 3, {kept});
     EXPECT_EQ(tests::read_file(kept), "a reference of last year");
   }
-  report_extreme("read-only file in the place of an output",
-                 "the same outputs, a file that may not be written", "it stays as it is, nothing is begun",
-                 "exit 3: it is there already and cannot be written: Permission denied");
 }
 
 TEST_F(FaultyDisk, ARemovedFolderLosesOnlyItsOwnOutputs) {
@@ -142,9 +129,6 @@ TEST_F(FaultyDisk, ARemovedFolderLosesOnlyItsOwnOutputs) {
   expect_message(output.last_error_line(), {path("gone")});
   EXPECT_EQ(renderer::read_image(path("stays.exr")).width, 64);
   EXPECT_EQ(folder.count_files(), 2u);
-  report_extreme("folder removed while rendering", "picture and checkpoint in it, a second picture elsewhere",
-                 "the render goes on, warns of each checkpoint, and writes the other picture",
-                 "exit 3 at the end: the folder 'FOLDER' does not exist");
 }
 
 TEST_F(FaultyDisk, AnUnwritableStderrIsIgnoredAndAnUnwritableStdoutIsCode3) {
@@ -175,9 +159,6 @@ TEST_F(FaultyDisk, AnUnwritableStderrIsIgnoredAndAnUnwritableStdoutIsCode3) {
     ::dup2(ends[1], STDOUT_FILENO);
   });
   expect_failure(closed, 3, {"stdout"});
-  report_extreme("stderr or stdout without a reader",
-                 "stderr full, or a pipe without a reader; the same of stdout with --stats -",
-                 "without stderr the render ends as ever, exit 0", "stdout: exit 3, cannot write to stdout");
 }
 
 }  // namespace

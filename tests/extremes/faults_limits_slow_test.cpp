@@ -13,7 +13,6 @@ namespace gatelight::tests {
 namespace {
 
 using ::testing::AnyOf;
-using testing::report_extreme;
 namespace fs = std::filesystem;
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
@@ -62,10 +61,6 @@ TEST_F(Limits, AddressSpaceLimitsEndInAPictureOrInOneErrorLine) {
   }
   EXPECT_GT(pictures, 2);
   EXPECT_GT(refusals, 0);
-  report_extreme("ulimit -v",
-                 fmt::format("{} MiB to 2.5 GiB, a picture of 4096x2048, and a cache", kMinMebibytes),
-                 fmt::format("{} pictures; never a crash or half a file", pictures),
-                 fmt::format("{} times exit 4, one line with what is needed and what is left", refusals));
 }
 
 /// A new control group below that of this process, where that is permitted.
@@ -127,11 +122,6 @@ TEST_F(Limits, ControlGroupLimitsEndInAPictureOrInOneErrorLine) {
   }
   EXPECT_GT(pictures, 0);
   EXPECT_GT(refusals, 0);
-  report_extreme(
-      "memory of a control group", "64 to 320 MiB, a picture of 1024x1024",
-      fmt::format("{} pictures; the kernel never kills it", pictures),
-      fmt::format("{} times exit 4: rendering needs about N MiB, and the control group leaves M MiB",
-                  refusals));
 }
 
 TEST_F(Limits, AThousandThreadsRenderThePictureOfOneThread) {
@@ -148,7 +138,6 @@ TEST_F(Limits, AThousandThreadsRenderThePictureOfOneThread) {
   EXPECT_EQ(read_file(path("one.exr")) == read_file(path("thousand.exr")), true);
   expect_failure(run_gatelight({"render", scene, "-o", path("a.exr"), "--threads", "1025"}), 1,
                  {"--threads", "1025"});
-  report_extreme("threads", "--threads 1 and 1000, with a cache", "the same bytes", "more than 1024: exit 1");
 }
 
 TEST_F(Limits, TheErrorNamesHowManyThreadsCanBeStarted) {
@@ -164,8 +153,6 @@ TEST_F(Limits, TheErrorNamesHowManyThreadsCanBeStarted) {
     expect_failure(output, 4, {"--threads 1000"});
     ++refusals;
   }
-  report_extreme("threads that cannot be started", "--threads 1000 within 1 to 3 GiB of address space", "",
-                 fmt::format("{} times exit 4: --threads 1000: only N can be started here", refusals));
 }
 
 TEST_F(Limits, PictureSizesAreRefusedBeforeMemoryIsAllocated) {
@@ -184,10 +171,6 @@ TEST_F(Limits, PictureSizesAreRefusedBeforeMemoryIsAllocated) {
   expect_failure(render("65536x4096", "0"), 4, {"ulimit -v"});
   EXPECT_EQ(render("65536x1", "0").exit_code, 0);
   EXPECT_EQ(render("1x65536", "0").exit_code, 0);
-  report_extreme(
-      "size of the picture", "0x0 to 65536x65536", "1x65536 and 65536x1 are rendered",
-      "0 or more than 65536 a side, or 2^28 pixels in all: exit 1; more than memory or --memory-limit: exit "
-      "4 with the MiB that are needed, before anything is built");
 }
 
 }  // namespace

@@ -9,7 +9,6 @@
 namespace gatelight::tests {
 namespace {
 
-using testing::report_extreme;
 
 class Names : public Faults {};
 
@@ -119,11 +118,6 @@ TEST_F(Names, EveryFileNameWorksForEveryInputAndOutput) {
     if (first.empty()) first = pixels;
     EXPECT_EQ(pixels == first, true) << name;
   }
-  report_extreme(
-      "names of files and folders",
-      "spaces, unicode, # % ? * ' \" {} \\ line breaks, a leading dash, bytes that are no UTF-8; for scene, "
-      "buffer, texture, environment, configuration, EXR, PNG, statistics, cache, checkpoint, map",
-      "the same picture under each", "");
 }
 
 TEST_F(Names, MissingFilesAreNamedInTheError) {
@@ -138,8 +132,6 @@ TEST_F(Names, MissingFilesAreNamedInTheError) {
   const std::string very_long = path(std::string(5000, 'x'));
   expect_failure(run_gatelight({"render", very_long, "-o", path("a.exr"), "--quiet"}), 2, {"scene"});
   expect_failure(run_gatelight(words({"-o", very_long + ".exr", "--quiet"})), 3, {"write"});
-  report_extreme("names of missing files", "the same names, and one of 5000 letters", "",
-                 "exit 2 (scene) or 3 (output), one line with the name");
 }
 
 TEST_F(Names, FilesWithTheLongestNamesCanBeReplaced) {
@@ -166,9 +158,6 @@ TEST_F(Names, FilesWithTheLongestNamesCanBeReplaced) {
   EXPECT_EQ(run({"--resume"}).exit_code, 0);
   expect_failure(run_gatelight(words({"-o", named('a', ".exr", 256), "--quiet"})), 3,
                  {named('a', ".exr", 256)});
-  report_extreme("names of 255 bytes, the most that file systems allow",
-                 "EXR, PNG, statistics, cache, checkpoint; twice, and resumed", "written, replaced and read",
-                 "256 bytes: exit 3 before the work, one line with the name");
 }
 
 TEST_F(Names, EachUnreadableTextureIsReportedOnce) {
@@ -188,8 +177,6 @@ TEST_F(Names, EachUnreadableTextureIsReportedOnce) {
     const nlohmann::json stats = nlohmann::json::parse(read_file(path("s.json")));
     expect_messages(stats["warnings"], {{".png"}});
   }
-  report_extreme("no texture can be read", "missing and broken files",
-                 "--missing warn: rendered without, one warning each", "exit 2 with the texture's name");
 }
 
 }  // namespace

@@ -8,7 +8,6 @@
 namespace gatelight::tests {
 namespace {
 
-using testing::report_extreme;
 
 class Stopped : public Faults {
  protected:
@@ -35,10 +34,6 @@ TEST_F(Stopped, TerminationDuringTrainingKeepsPictureAndCheckpoint) {
   EXPECT_EQ(run_gatelight(learning("killed.exr", keeps)).exit_code, 0);
   EXPECT_EQ(run_gatelight(learning("straight.exr", {})).exit_code, 0);
   EXPECT_EQ(read_file(path("killed.exr")) == read_file(path("straight.exr")), true);
-  report_extreme(
-      "SIGTERM in training", "a cache of 3000 steps",
-      "picture and checkpoint are written, exit 143; going on gives the bytes of a run that was not stopped",
-      "");
 }
 
 TEST_F(Stopped, ResumingWithAnotherSceneIsRefused) {
@@ -60,9 +55,6 @@ TEST_F(Stopped, ResumingWithAnotherSceneIsRefused) {
   expect_failure(changed("\"yfov\": 0.9", "\"yfov\": 0.8"), 2, {"camera"});
   EXPECT_EQ(read_file(path("c")) == kept, true);
   EXPECT_EQ(changed("\"asset\"", "\"asset\"").exit_code, 0);
-  report_extreme("scene changed before --resume", "a vertex, a colour, metalness, the view",
-                 "the checkpoint stays whole",
-                 "exit 2: it differs in materials (geometry), or which option differs with both values");
 }
 
 }  // namespace

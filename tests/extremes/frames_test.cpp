@@ -1,6 +1,5 @@
 // Frames: one and ten thousand, times without keys, joints that collapse, vertices that leave the scene.
 
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -9,7 +8,6 @@
 
 #include "renderer/render.h"
 #include "scene/gltf.h"
-#include "tests/extremes/extreme.h"
 #include "tests/support/animated_file.h"
 #include "tests/support/messages.h"
 
@@ -19,7 +17,6 @@ namespace {
 using renderer::Picture;
 using renderer::Renderer;
 using renderer::RenderOptions;
-using testing::report_extreme;
 
 RenderOptions small_frames() {
   RenderOptions options;
@@ -80,9 +77,6 @@ TEST(FramesAtExtremes, OneAndTenThousand) {
   for (int i = 1; i < kFrames; ++i) ASSERT_TRUE(all_finite(player.frame(i, i / 24.0)));
   EXPECT_LT(resident_mebibytes() - before, 20.0);
   EXPECT_EQ(player.frame(0, 0.0).layers.front().values, first.layers.front().values);
-  report_extreme("number of frames", "1 and 10,000 of one file",
-                 "the first frame has the same bits after all the others",
-                 "a million: exit 1, at most 1,000,000");
 }
 
 TEST(FramesAtExtremes, TimesWithoutKeys) {
@@ -102,8 +96,6 @@ TEST(FramesAtExtremes, TimesWithoutKeys) {
     EXPECT_TRUE(all_finite(of_no_time.frame(1, seconds)));
     EXPECT_EQ(of_no_time.scene.instances.at(0).transform.translation().x(), 3.0f);
   }
-  report_extreme("times", "-1e9 to 1e9 s, backwards; an animation of one key at 0 s",
-                 "the first key before it, the last one after it", "");
 }
 
 TEST(FramesAtExtremes, JointsThatCollapse) {
@@ -123,8 +115,6 @@ TEST(FramesAtExtremes, JointsThatCollapse) {
     EXPECT_TRUE(all_finite(player.frame(2, seconds))) << seconds;
     for (const Vec3& p : player.scene.meshes.at(0).positions) EXPECT_TRUE(p.allFinite()) << seconds;
   }
-  report_extreme("joints that collapse", "scales 1, 0, 1e-30, -1 in turn", "finite vertices and pictures",
-                 "");
 }
 
 TEST(FramesAtExtremes, VerticesThatLeaveTheScene) {
@@ -135,8 +125,6 @@ TEST(FramesAtExtremes, VerticesThatLeaveTheScene) {
   EXPECT_TRUE(all_finite(player.frame(1, 1.0)));
   tests::expect_refusal<InputError>([&] { player.file.show(player.scene, 2.0); }, {"1e+09"});
   EXPECT_TRUE(all_finite(player.frame(3, 0.5))) << "the frames after it";
-  report_extreme("vertices that leave the scene", "a triangle at 0, 9e8 and 1e12 m", "9e8 m: finite pictures",
-                 "1e12 m: that frame fails, a vertex at ..., expected at most 1e+09 from the origin");
 }
 
 TEST(FramesAtExtremes, MotionWhileAShutterIsOpen) {
@@ -157,9 +145,6 @@ TEST(FramesAtExtremes, MotionWhileAShutterIsOpen) {
   Player gone(leaving);
   SceneFile open(leaving.write(gone.folder), {.time = 0.0, .shutter = 0.5});
   tests::expect_refusal<InputError>([&] { open.load(); }, {"1e+09"});
-  report_extreme("motion while a shutter is open",
-                 "mirrored, scaled to nothing, a shutter of 1e6 s, 1e12 m/s", "finite pictures",
-                 "a vertex beyond 1e9 m in the shutter: one line");
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "renderer/render.h"
+#include "renderer/settings/enum_names.h"
 #include "scene/bake.h"
 #include "tests/support/room.h"
 #include "tests/support/scene_builder.h"
@@ -28,14 +29,8 @@ struct Rendered {
   }
 };
 
-struct Kind {
-  const char* name;
-  renderer::Integrator integrator;
-};
-inline constexpr Kind kKinds[] = {{"path", renderer::Integrator::path},
-                                  {"ao", renderer::Integrator::ao},
-                                  {"nrc", renderer::Integrator::nrc},
-                                  {"nao", renderer::Integrator::nao}};
+inline constexpr renderer::Integrator kAll[] = {renderer::Integrator::path, renderer::Integrator::ao,
+                                                renderer::Integrator::nrc, renderer::Integrator::nao};
 
 inline renderer::RenderOptions room_picture(renderer::Integrator integrator, int train_steps) {
   renderer::RenderOptions options = small_picture();
@@ -92,13 +87,6 @@ inline double block_error(const Rendered& a, const Rendered& b, int width, int b
     }
   }
   return sum / blocks;
-}
-
-/// Number of values that differ in their bits.
-inline std::size_t different(const Rendered& a, const Rendered& b) {
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < a.values.size(); ++i) count += a.values[i] != b.values[i] ? 1 : 0;
-  return count;
 }
 
 /// Scales all vertices, cameras and lights of a scene whose instances are baked about the origin, then moves

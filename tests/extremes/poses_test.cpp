@@ -1,19 +1,16 @@
 // Poses: many joints and none, weights of any sum, joints without an inverse, targets of nothing.
 
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
-#include "tests/extremes/extreme.h"
 #include "tests/support/gltf_builder.h"
 
 namespace gatelight::scene {
 namespace {
 
-using testing::report_extreme;
 using Floats = std::vector<float>;
 
 /// Joint i is at (i, 0, 0) and moves by (0, 1, 0) from its bind pose.
@@ -70,36 +67,21 @@ TEST(Poses, NoJointsAndTenThousand) {
   EXPECT_TRUE(scene.warnings.empty());
   EXPECT_EQ(count_triangles(scene), 3333u);
   EXPECT_EQ(worst_place(scene), 0.0f);
-  report_extreme("joints", "none; 10,000 with a vertex each",
-                 fmt::format("without joints the bind pose, with a warning; else each vertex in its place to "
-                             "{:.1e} m",
-                             worst_place(scene)),
-                 "");
 }
 
 TEST(Poses, WeightsOfAnySum) {
-  float worst = 0.0f;
   for (const float scale : {1e-30f, 1e-3f, 0.5f, 1.0f, 3.0f, 1e30f}) {
     GltfBuilder file = with_joints(3);
     file.node({{"mesh", file.mesh(skinned(file, 3, {0.5f * scale, 0.25f * scale, 0.25f * scale, 0}))},
                {"skin", 0}});
-    const float place = worst_place(file.load());
-    EXPECT_LT(place, 1e-6f) << scale;
-    worst = std::max(worst, place);
+    EXPECT_LT(worst_place(file.load()), 1e-6f) << scale;
   }
   GltfBuilder file = with_joints(3);
   file.node({{"mesh", file.mesh(skinned(file, 3, {0, -1, std::nanf(""), 0}))}, {"skin", 0}});
   EXPECT_LT(worst_place(file.load()), 1e-6f) << "the first joint";
-  report_extreme(
-      "weights of joints", "sums of 1e-30 to 1e30; zero, negative and NaN alone",
-      fmt::format("divided by their sum: each vertex in its place to {:.1e} m (bound 1e-6); vertices "
-                  "without a positive weight follow the first joint",
-                  worst),
-      "");
 }
 
 TEST(Poses, JointsWithoutAnInverse) {
-  int tried = 0;
   for (const json& scale : {json{0, 0, 0}, json{1, 0, 1}, json{0, 0, 1}, json{1e-20, 1e-20, 1e-20},
                             json{-1, 1, 1}, json{1e4, 1, 1e-4}}) {
     GltfBuilder file = with_joints(3);
@@ -111,10 +93,7 @@ TEST(Poses, JointsWithoutAnInverse) {
     const Scene scene = file.load();
     for (const Vec3& p : only_mesh(scene).positions) EXPECT_TRUE(p.allFinite()) << scale;
     for (const Vec3& n : only_mesh(scene).normals) EXPECT_NEAR(n.norm(), 1.0f, 1e-5f) << scale;
-    ++tried;
   }
-  report_extreme("joints that are flat, tiny or mirrored", "six scales, 0 to 1e4",
-                 fmt::format("finite positions and unit normals in all {}", tried), "");
 }
 
 TEST(Poses, TargetsOfNothingAndOfEverything) {
@@ -138,11 +117,6 @@ TEST(Poses, TargetsOfNothingAndOfEverything) {
   EXPECT_EQ(scene.origin.z() + scene.bounds.max().z(), 1e8f) << "its centre became the origin";
   file.root["meshes"][0]["weights"][1] = 1e30;
   file.expect_refused({"1e+30"});
-  report_extreme("morph targets",
-                 "empty ones, of an empty primitive, more weights than targets; weights 1e-40 to "
-                 "1e30",
-                 "as the sum says; the empty primitive is left out with a warning",
-                 "positions beyond 1e9 m: exit 2, a vertex at ..., expected at most 1e+09 from the origin");
 }
 
 }  // namespace

@@ -2,14 +2,12 @@
 
 #include <tbb/global_control.h>
 
-#include "tests/extremes/extreme.h"
 #include "tests/extremes/fast_backends.h"
 
 namespace gatelight::neural {
 namespace {
 
 using namespace testing;
-using gatelight::testing::report_extreme;
 
 constexpr std::uint64_t kSteps = 1'000'000;
 constexpr std::uint64_t kPart = 100'000;
@@ -92,13 +90,6 @@ TEST(ExtremeLength, AMillionStepsStayFiniteAndDoNotDrift) {
   EXPECT_LE(first, 0.05);
   EXPECT_LE(worst, 1.2 * first);
   EXPECT_LE(greatest, 30.0);
-  report_extreme(
-      "a million steps", "16 records each, targets of 0.2 to 1 with noise of +-0.3",
-      fmt::format(
-          "error of answers {:.2g} after 1e5 steps, at most {:.2g} from there on (bound 1.2 times), {:.2g} "
-          "at the end; greatest parameter {:.2g} (bound 30)",
-          first, worst, last, greatest),
-      "");
 }
 
 }  // namespace

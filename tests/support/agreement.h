@@ -42,7 +42,8 @@ inline std::vector<float> answers(const Backend& backend, const Model& model, co
 }
 
 inline std::vector<float> raw_answers(const Backend& backend, const Model& model, const OwnedBatch& batch,
-                                      bool averaged, QueryPrecision precision = QueryPrecision::fp32) {
+                                      bool averaged = true,
+                                      QueryPrecision precision = QueryPrecision::fp32) {
   return answers(backend, model, batch, {precision, OutputRange::raw, averaged});
 }
 
@@ -83,10 +84,11 @@ class Agreement {
   }
 
   void expect_same_step(const std::string& name, const std::shared_ptr<const Model>& model,
-                        const TrainingOptions& options, const OwnedBatch& batch, const ModelState& state) {
+                        const TrainingOptions& options, const OwnedBatch& batch, const ModelState& state,
+                        int steps = 1) {
     const auto reference = reference::make_reference_backend(model, options);
     reference->import_state(state);
-    const Step expected = make_step(*reference, *model, batch);
+    const Step expected = make_steps(*reference, *model, batch, steps, asks_after_steps_);
     EXPECT_EQ(expected.statistics.rejected, batch.count(Fate::rejected));
     EXPECT_EQ(expected.statistics.unstored, batch.count(Fate::unstored));
     const std::vector<bool> doubtful = doubtful_nodes(*model, batch);
@@ -94,7 +96,7 @@ class Agreement {
     for (const auto& [backend, fast] : make_(model, options)) {
       SCOPED_TRACE(fmt::format("{}: {}", backend, where));
       fast->import_state(state);
-      const Step got = {fast->train(batch.training()), fast->export_state(), {}};
+      const Step got = make_steps(*fast, *model, batch, steps, false);
       const std::vector<bool> without = expect_same_counts(doubtful, got, expected);
       expect_same_state(*model, options, got, expected, without, backend, where);
       const bool exact = options.precision == FeaturePrecision::fp32 &&
@@ -118,9 +120,12 @@ class Agreement {
     return {raw_answers(backend, model, batch, false), raw_answers(backend, model, batch, true)};
   }
 
-  Step make_step(Backend& reference, const Model& model, const OwnedBatch& batch) const {
-    Step step = {reference.train(batch.training()), reference.export_state(), {}};
-    if (asks_after_steps_) step.answers = both_answers(reference, model, batch);
+  static Step make_steps(Backend& backend, const Model& model, const OwnedBatch& batch, int steps,
+                         bool asks) {
+    Step step;
+    for (int i = 0; i < steps; ++i) step.statistics = backend.train(batch.training());
+    step.after = backend.export_state();
+    if (asks) step.answers = both_answers(backend, model, batch);
     return step;
   }
 

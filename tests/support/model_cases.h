@@ -236,6 +236,11 @@ inline NamedConfigs all_model_configs() {
   detail::add_networks(configs);
   detail::add_inputs(configs);
   detail::add_hash_grids(configs);
+  ModelConfig apart = detail::occlusion_config();
+  apart.gate.stack = {kMaxResolution};
+  apart.gate.storage = NodeStorage::per_triangle;
+  apart.gate.cluster = false;
+  configs.emplace_back("gate_L2_per_triangle_stack_64", apart);
   return configs;
 }
 
