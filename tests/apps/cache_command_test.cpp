@@ -42,8 +42,7 @@ class CacheCommand : public FolderTest {
 
   json statistics(Words flags, const std::string& scene = "cornell-box") const {
     flags.insert(flags.end(), {"-o", path("a.exr"), "--stats", "-"});
-    const Output output = render(flags, scene);
-    EXPECT_EQ(output.exit_code, 0) << output.err;
+    const Output output = expect_done(render(flags, scene));
     return json::parse(output.out);
   }
 };
@@ -71,10 +70,8 @@ TEST_F(CacheCommand, ATrainingThatDivergesLeavesOldFilesAndExitsWith6) {
 
 TEST_F(CacheCommand, ALoadedCacheIsKeptWhereMoreTrainingDiverges) {
   const std::string good = path("good.safetensors");
-  ASSERT_EQ(render({"--integrator", "nrc", "--cache-out", good, "-o", path("a.exr")}).exit_code, 0);
-  ASSERT_EQ(render({"--integrator", "nrc", "--cache-in", good, "--train-steps", "0", "-o", path("b.exr")})
-                .exit_code,
-            0);
+  expect_done(render({"--integrator", "nrc", "--cache-out", good, "-o", path("a.exr")}));
+  expect_done(render({"--integrator", "nrc", "--cache-in", good, "--train-steps", "0", "-o", path("b.exr")}));
   const Output output =
       render({"--integrator", "nrc", "--learning-rate", "1000", "--train-steps", "32", "--cache-in", good,
               "--cache-out", path("c.safetensors"), "-o", path("c.exr"), "--stats", path("c.json")});
@@ -82,10 +79,8 @@ TEST_F(CacheCommand, ALoadedCacheIsKeptWhereMoreTrainingDiverges) {
   expect_message(output.last_error_line(), {"cornell-box.glb", "--learning-rate"});
   EXPECT_EQ(read_image(path("c.exr")).layers[0].values, read_image(path("b.exr")).layers[0].values);
   EXPECT_TRUE(json::parse(read_file(path("c.json")))["train"].contains("diverged"));
-  ASSERT_EQ(render({"--integrator", "nrc", "--cache-in", path("c.safetensors"), "--train-steps", "0", "-o",
-                    path("d.exr")})
-                .exit_code,
-            0);
+  expect_done(render({"--integrator", "nrc", "--cache-in", path("c.safetensors"), "--train-steps", "0", "-o",
+                      path("d.exr")}));
   EXPECT_EQ(read_image(path("d.exr")).layers[0].values, read_image(path("b.exr")).layers[0].values);
 }
 
@@ -137,8 +132,7 @@ TEST_F(CacheCommand, ThreadsDoNotChangeABit) {
     for (const char* threads : {"1", "3"}) {
       Words flags = run;
       flags.insert(flags.end(), {"--reproducible", "--quiet", "-o", path("a.exr"), "--threads", threads});
-      const Output output = render(flags, "material-grid");
-      ASSERT_EQ(output.exit_code, 0) << output.err;
+      expect_done(render(flags, "material-grid"));
       files.push_back(read_file(path("a.exr")));
     }
     EXPECT_EQ(files[0], files[1]) << run[1];
@@ -150,7 +144,7 @@ TEST_F(CacheCommand, TheSeedChangesTheTraining) {
   for (const char* seed : {"0", "1"}) {
     Words words = flags;
     words.insert(words.end(), {"-o", path(std::string(seed) + ".exr"), "--seed", seed});
-    ASSERT_EQ(render(words).exit_code, 0);
+    expect_done(render(words));
   }
   EXPECT_NE(read_image(path("0.exr")).layers[0].values, read_image(path("1.exr")).layers[0].values);
 }
@@ -190,7 +184,7 @@ TEST_F(CacheCommand, ProgressGoesThroughThePhases) {
 }
 
 TEST_F(CacheCommand, AllLayersShowTheCache) {
-  ASSERT_EQ(render({"--integrator", "nrc", "--aov", "all", "-o", path("a.exr"), "--quiet"}).exit_code, 0);
+  expect_done(render({"--integrator", "nrc", "--aov", "all", "-o", path("a.exr"), "--quiet"}));
   const Picture picture = read_image(path("a.exr"));
   for (const char* name : {"cache-answer", "cache-error", "training-count", "resolution", "nearest-node"}) {
     const Layer* layer = picture.find(name);
@@ -205,8 +199,8 @@ TEST_F(CacheCommand, ASavedCacheAnswersAsTheOneThatWasTrained) {
   Words saving = flags, loading = flags;
   saving.insert(saving.end(), {path("a.exr"), "--cache-out", path("c.safetensors")});
   loading.insert(loading.end(), {path("b.exr"), "--cache-in", path("c.safetensors"), "--train-steps", "0"});
-  ASSERT_EQ(render(saving).exit_code, 0);
-  ASSERT_EQ(render(loading).exit_code, 0);
+  expect_done(render(saving));
+  expect_done(render(loading));
   EXPECT_EQ(read_image(path("a.exr")).layers[0].values, read_image(path("b.exr")).layers[0].values);
   const json other_view = statistics(
       {"--integrator", "nrc", "--cache-in", path("c.safetensors"), "--train-steps", "3", "--fov", "20"});
@@ -216,8 +210,7 @@ TEST_F(CacheCommand, ASavedCacheAnswersAsTheOneThatWasTrained) {
 
 TEST_F(CacheCommand, ASavedCacheOfAnotherSceneOrConfigurationIsCode2) {
   const std::string file = path("c.safetensors");
-  ASSERT_EQ(render({"--integrator", "nrc", "--quiet", "-o", path("a.exr"), "--cache-out", file}).exit_code,
-            0);
+  expect_done(render({"--integrator", "nrc", "--quiet", "-o", path("a.exr"), "--cache-out", file}));
   const Words loading = {"--integrator", "nrc", "--quiet", "-o", path("b.exr"), "--cache-in"};
   const auto expect_refused = [&](const std::string& cache, const Words& more, const std::string& scene,
                                   NameList names) {
@@ -255,8 +248,7 @@ TEST_F(CacheCommand, InfoDescribesTheCacheOfARender) {
                        "--cache-roughness", "0.25"};
   Words asking = {"info", scene};
   asking.insert(asking.end(), flags.begin(), flags.end());
-  const Output text = run_gatelight(asking);
-  EXPECT_EQ(text.exit_code, 0) << text.err;
+  const Output text = expect_done(run_gatelight(asking));
   EXPECT_THAT(text.out, AllOf(HasSubstr("triangles"), HasSubstr("network reads"), HasSubstr("sides stored"),
                               HasSubstr("instance\n")));
   asking.insert(asking.end(), {"--json", "-"});

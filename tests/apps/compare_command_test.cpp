@@ -34,8 +34,7 @@ class CompareCommand : public FolderTest {
 TEST_F(CompareCommand, PrintsTextAndJson) {
   const std::string reference = picture("r.exr", 4, 2, 1.0f);
   const std::string test = picture("t.exr", 4, 2, 1.5f);
-  const Output text = run_gatelight({"compare", reference, test});
-  EXPECT_EQ(text.exit_code, 0) << text.err;
+  const Output text = expect_done(run_gatelight({"compare", reference, test}));
   EXPECT_THAT(text.out, AllOf(HasSubstr("mse              0.25\n"), HasSubstr("max_error        0.5\n")));
   const Output as_json = run_gatelight({"compare", reference, test, "--json", "-"});
   const json result = json::parse(as_json.out);
@@ -50,9 +49,8 @@ TEST_F(CompareCommand, PrintsTextAndJson) {
 
 TEST_F(CompareCommand, MetricsAreChosenByName) {
   const std::string reference = picture("r.exr", 1, 1, 1.0f);
-  const Output output =
-      run_gatelight({"compare", reference, reference, "--metric", "psnr,max", "--json", path("o.json")});
-  EXPECT_EQ(output.exit_code, 0) << output.err;
+  const Output output = expect_done(
+      run_gatelight({"compare", reference, reference, "--metric", "psnr,max", "--json", path("o.json")}));
   EXPECT_THAT(output.out, AllOf(HasSubstr("psnr             inf dB"), Not(HasSubstr("mse"))));
   const json result = json::parse(read_file(path("o.json")));
   EXPECT_TRUE(result["psnr"].is_null()) << "JSON has no infinity";
@@ -97,8 +95,7 @@ TEST_F(CompareCommand, SsimIsPrintedAndWrittenWhereItsWindowFits) {
   EXPECT_EQ(ssim({"--tonemap", "filmic"})["tonemap"], "filmic");
 
   const std::string small = picture("s.exr", 12, 10, 1.0f);
-  const Output output = run_gatelight_inside({"compare", small, small, "--json", "-"});
-  EXPECT_EQ(output.exit_code, 0);
+  const Output output = expect_done(run_gatelight_inside({"compare", small, small, "--json", "-"}));
   EXPECT_EQ(output.err, "");
   EXPECT_TRUE(json::parse(output.out)["ssim"].is_null());
   EXPECT_THAT(run_gatelight_inside({"compare", small, small}).out, HasSubstr("ssim             -\n"));
@@ -112,8 +109,7 @@ TEST_F(CompareCommand, FlipFollowsExposureCurveAndPixelsPerDegree) {
   const auto flip = [&](const std::vector<std::string>& flags) {
     std::vector<std::string> arguments = {"compare", reference, test, "--metric", "flip", "--json", "-"};
     arguments.insert(arguments.end(), flags.begin(), flags.end());
-    const Output output = run_gatelight_inside(arguments);
-    EXPECT_EQ(output.exit_code, 0) << output.err;
+    const Output output = expect_done(run_gatelight_inside(arguments));
     return json::parse(output.out)["flip"];
   };
   EXPECT_EQ(flip({})["mean"], 0.0) << "both are white";
@@ -129,8 +125,8 @@ TEST_F(CompareCommand, HalvesAlsoEstimateTheBias) {
   const std::string r1 = picture("r1.exr", 2, 2, 0.5f);
   const std::string r2 = picture("r2.exr", 2, 2, 1.5f);
   const std::string test = picture("t.exr", 2, 2, 2.0f);
-  const Output output = run_gatelight_inside({"compare", r1, test, "--halves", r2, test, "--json", "-"});
-  ASSERT_EQ(output.exit_code, 0) << output.err;
+  const Output output =
+      expect_done(run_gatelight_inside({"compare", r1, test, "--halves", r2, test, "--json", "-"}));
   const json result = json::parse(output.out);
   EXPECT_NEAR(result["bias_rel_mse"], 1.5 * 0.5 / 1.01, 1e-12);
   EXPECT_NEAR(result["rel_mse"], 1.0 / 1.01, 1e-12);
@@ -152,21 +148,17 @@ TEST_F(CompareCommand, HalvesWithEqualSeedsGiveAWarning) {
   const std::string r1 = half("r1.exr", "7"), r2 = half("r2.exr", "8");
   const std::string t1 = half("t1.exr", "7"), t2 = half("t2.exr", "8");
   // A reference and a test may have the same seed.
-  const Output good = run_gatelight({"compare", r1, t1, "--halves", r2, t2});
-  EXPECT_EQ(good.exit_code, 0);
+  const Output good = expect_done(run_gatelight({"compare", r1, t1, "--halves", r2, t2}));
   EXPECT_EQ(good.err, "");
-  const Output references = run_gatelight({"compare", r1, r2, "--halves", t1, t2});
-  EXPECT_EQ(references.exit_code, 0);
+  const Output references = expect_done(run_gatelight({"compare", r1, r2, "--halves", t1, t2}));
   expect_messages(references.error_lines(), {{"r1.exr", "t1.exr", "7"}, {"r2.exr", "t2.exr", "8"}});
 }
 
 TEST_F(CompareCommand, ErrorMapIsAPictureOfTheSameSize) {
   const std::string reference = picture("r.exr", 5, 3, 1.0f);
   const std::string test = picture("t.exr", 5, 3, 9.0f);
-  ASSERT_EQ(
-      run_gatelight_inside({"compare", reference, test, "--error-map", path("e.png"), "--map", "relative"})
-          .exit_code,
-      0);
+  expect_done(
+      run_gatelight_inside({"compare", reference, test, "--error-map", path("e.png"), "--map", "relative"}));
   const renderer::Picture relative = renderer::read_image(path("e.png"));
   EXPECT_EQ(relative.width, 5);
   EXPECT_EQ(relative.height, 3);
@@ -176,7 +168,7 @@ TEST_F(CompareCommand, ErrorMapIsAPictureOfTheSameSize) {
     std::vector<std::string> arguments = {"compare", reference,     test,         "--metric",
                                           "mse",     "--error-map", path("f.png")};
     arguments.insert(arguments.end(), flags.begin(), flags.end());
-    EXPECT_EQ(run_gatelight_inside(arguments).exit_code, 0);
+    expect_done(run_gatelight_inside(arguments));
     const renderer::Picture map = renderer::read_image(path("f.png"));
     EXPECT_EQ(map.width * map.height, 15);
     return map.layers[0].values.front();
@@ -231,9 +223,8 @@ TEST_F(CompareCommand, MeansByNameLeaveNonFinitePixelsOutAndCountThem) {
   renderer::write_image(half, folder / "t.exr", {.exr_float = true});
   const std::string test = path("t.exr");
   const Output output =
-      run_gatelight_inside({"compare", reference, test, "--metric", "mse,rel_mse,psnr,mean,max", "--json",
-                            "-", "--error-map", path("e.png"), "--map", "relative"});
-  EXPECT_EQ(output.exit_code, 0) << output.err;
+      expect_done(run_gatelight_inside({"compare", reference, test, "--metric", "mse,rel_mse,psnr,mean,max",
+                                        "--json", "-", "--error-map", path("e.png"), "--map", "relative"}));
   expect_messages(output.error_lines(), {{"1", test}});
   EXPECT_EQ(json::parse(output.out)["nonfinite"]["test"], 1);
   EXPECT_EQ(json::parse(output.out)["pixels"], 1);

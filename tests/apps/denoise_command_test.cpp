@@ -21,22 +21,10 @@ class DenoiseCommand : public FolderTest {
  protected:
   std::string render(const std::string& name, const std::vector<std::string>& more = {},
                      const std::string& seed = "1") const {
-    std::vector<std::string> words = {"render",
-                                      folder.write("scene.gltf", tiny_scene()),
-                                      "-o",
-                                      path(name),
-                                      "--size",
-                                      "40x32",
-                                      "--spp",
-                                      "8",
-                                      "--environment",
-                                      "1,0.9,0.8",
-                                      "--seed",
-                                      seed,
-                                      "--quiet"};
-    words.insert(words.end(), more.begin(), more.end());
-    const Output output = run_gatelight_inside(words);
-    EXPECT_EQ(output.exit_code, 0) << output.err;
+    std::vector<std::string> words =
+        words_of("render {} -o {} --size 40x32 --spp 8 --environment 1,0.9,0.8 --seed {} --quiet",
+                 {folder.write("scene.gltf", tiny_scene()), path(name), seed}, more);
+    expect_done(run_gatelight_inside(words));
     return path(name);
   }
   static std::vector<float> beauty(const std::string& file) {
@@ -56,8 +44,7 @@ TEST_F(DenoiseCommand, GivesTheFinishedPicture) {
     more.insert(more.end(), {"--aov", "denoising,depth", "-o", path("finished.png")});
     const std::string finished = render("finished.exr", more);
     const Output output =
-        run_gatelight({"denoise", finished, "-o", path("again.exr"), "-o", path("again.png")});
-    ASSERT_EQ(output.exit_code, 0) << output.err;
+        expect_done(run_gatelight({"denoise", finished, "-o", path("again.exr"), "-o", path("again.png")}));
     EXPECT_NE(output.err.find("Open Image Denoise 2."), std::string::npos) << output.err;
     const renderer::Picture again = renderer::read_image(path("again.exr"));
     EXPECT_EQ(again.layers[0].values, beauty(finished));
@@ -76,12 +63,10 @@ TEST_F(DenoiseCommand, ReadsTheGuidesAsTheRecipeSays) {
   for (const char* const denoiser : {"oidn", "none"}) {
     const std::string input =
         render("a.exr", {"--denoiser", denoiser, "--prefilter", "none", "--aov", "denoising"});
-    ASSERT_EQ(run_gatelight_inside({"denoise", input, "-o", path("b.exr"), "--quiet"}).exit_code, 0);
+    expect_done(run_gatelight_inside({"denoise", input, "-o", path("b.exr"), "--quiet"}));
     EXPECT_EQ(beauty(path("b.exr")), finished) << denoiser;
-    ASSERT_EQ(
-        run_gatelight_inside({"denoise", input, "-o", path("b.exr"), "--quiet", "--prefilter", "accurate"})
-            .exit_code,
-        0);
+    expect_done(
+        run_gatelight_inside({"denoise", input, "-o", path("b.exr"), "--quiet", "--prefilter", "accurate"}));
     EXPECT_NE(beauty(path("b.exr")), finished) << denoiser;
   }
 }
@@ -90,10 +75,9 @@ TEST_F(DenoiseCommand, FinishesMergedPartsOfAPicture) {
   GATELIGHT_NEEDS_DENOISER();
   const std::string a = render("a.exr", {"--aov", "denoising"}, "1"),
                     b = render("b.exr", {"--aov", "denoising"}, "2");
-  ASSERT_EQ(run_gatelight_inside({"merge", a, b, "-o", path("merged.exr")}).exit_code, 0);
-  const Output output =
-      run_gatelight_inside({"denoise", path("merged.exr"), "-o", path("finished.exr"), "--quiet"});
-  ASSERT_EQ(output.exit_code, 0) << output.err;
+  expect_done(run_gatelight_inside({"merge", a, b, "-o", path("merged.exr")}));
+  const Output output = expect_done(
+      run_gatelight_inside({"denoise", path("merged.exr"), "-o", path("finished.exr"), "--quiet"}));
   EXPECT_EQ(output.out + output.err, "");
   EXPECT_NE(beauty(path("finished.exr")), beauty(path("merged.exr")));
   EXPECT_EQ(renderer::read_image(path("finished.exr")).metadata.at("spp"), "16");
@@ -102,11 +86,9 @@ TEST_F(DenoiseCommand, FinishesMergedPartsOfAPicture) {
 TEST_F(DenoiseCommand, TakesLayersOfOtherNames) {
   GATELIGHT_NEEDS_DENOISER();
   const std::string input = render("a.exr", {"--aov", "albedo,normal"});
-  ASSERT_EQ(run_gatelight_inside({"denoise", input, "-o", path("usual.exr"), "--quiet"}).exit_code, 0);
-  ASSERT_EQ(run_gatelight_inside({"denoise", input, "-o", path("named.exr"), "--quiet", "--albedo-layer",
-                                  "albedo", "--normal-layer", "normal"})
-                .exit_code,
-            0);
+  expect_done(run_gatelight_inside({"denoise", input, "-o", path("usual.exr"), "--quiet"}));
+  expect_done(run_gatelight_inside({"denoise", input, "-o", path("named.exr"), "--quiet", "--albedo-layer",
+                                    "albedo", "--normal-layer", "normal"}));
   EXPECT_NE(beauty(path("usual.exr")), beauty(input));
   EXPECT_EQ(beauty(path("usual.exr")), beauty(path("named.exr")));
   expect_failure(run_gatelight_inside({"denoise", input, "-o", path("o.exr"), "--normal-layer", "N"}), 2,
@@ -143,15 +125,15 @@ TEST_F(DenoiseCommand, ReplacesTheLayerThatIsNamedAndNoOther) {
   GATELIGHT_NEEDS_DENOISER();
   const renderer::NoisyImage image = testing::noisy_image(kWidth, kHeight);
   write_image(picture_of(image, {"image", "albedo", "sh_normal"}), path("a.exr"), {.exr_float = true});
-  const Output output = run_gatelight_inside({"denoise", path("a.exr"), "-o", path("b.exr"), "--color-layer",
-                                              "image", "--normal-layer", "sh_normal"});
-  ASSERT_EQ(output.exit_code, 0) << output.err;
+  const Output output =
+      expect_done(run_gatelight_inside({"denoise", path("a.exr"), "-o", path("b.exr"), "--color-layer",
+                                        "image", "--normal-layer", "sh_normal"}));
   EXPECT_NE(output.err.find("'image', with 'albedo' and 'sh_normal'"), std::string::npos) << output.err;
   const renderer::Picture picture = renderer::read_image(path("b.exr"));
   EXPECT_EQ(picture.find("albedo")->values, image.albedo);
   EXPECT_EQ(picture.find("sh_normal")->values, image.normal);
   EXPECT_LT(error_of(path("b.exr"), "image"), 0.2 * error_of(path("a.exr"), "image"));
-  ASSERT_EQ(run_gatelight_inside({"denoise", path("a.exr"), "-o", path("c.exr"), "--quiet"}).exit_code, 0);
+  expect_done(run_gatelight_inside({"denoise", path("a.exr"), "-o", path("c.exr"), "--quiet"}));
   EXPECT_EQ(read_file(path("c.exr")), read_file(path("b.exr"))) << "the usual names are the same layers";
 }
 
@@ -164,10 +146,8 @@ TEST_F(DenoiseCommand, FindsChannelsByTheirNames) {
   write_image(picture_of(image, {"", "albedo", "N", {"r", "g", "b"}}), path("lower.exr"),
               {.exr_float = true});
   for (const std::string name : {"upper", "words", "lower"}) {
-    ASSERT_EQ(run_gatelight_inside({"denoise", path(name + ".exr"), "-o", path(name + ".png"), "-o",
-                                    path(name + "-out.exr"), "--quiet"})
-                  .exit_code,
-              0);
+    expect_done(run_gatelight_inside({"denoise", path(name + ".exr"), "-o", path(name + ".png"), "-o",
+                                      path(name + "-out.exr"), "--quiet"}));
     EXPECT_EQ(read_file(path(name + ".png")), read_file(path("upper.png"))) << name;
     EXPECT_EQ(beauty(path(name + "-out.exr")), beauty(path("upper-out.exr"))) << name;
   }
@@ -180,7 +160,7 @@ TEST_F(DenoiseCommand, OneGuideIsBetterThanNone) {
   const auto error = [&](const NamedLayers& names, std::vector<std::string> flags = {}) {
     write_image(picture_of(image, names), path("a.exr"), {.exr_float = true});
     flags.insert(flags.begin(), {"denoise", path("a.exr"), "-o", path("b.exr"), "--quiet"});
-    EXPECT_EQ(run_gatelight_inside(flags).exit_code, 0);
+    expect_done(run_gatelight_inside(flags));
     return error_of(path("b.exr"), names.color);
   };
   const double none = error({"V.Combined", "none", "none"});
@@ -200,7 +180,7 @@ TEST_F(DenoiseCommand, DenoisesGreyPicturesAndSeveralViewLayers) {
   for (std::size_t i = 0; i < image.color.size(); i += 3)
     grey.layers[0].values.insert(grey.layers[0].values.end(), {0.5f, image.color[i]});
   write_image(grey, path("grey.exr"), {.exr_float = true});
-  ASSERT_EQ(run_gatelight_inside({"denoise", path("grey.exr"), "-o", path("b.exr"), "--quiet"}).exit_code, 0);
+  expect_done(run_gatelight_inside({"denoise", path("grey.exr"), "-o", path("b.exr"), "--quiet"}));
   const renderer::Layer read = renderer::read_image(path("b.exr")).layers[0];
   ASSERT_EQ(read.channels, (std::vector<std::string>{"A", "Y"}));
   const std::vector<float> clean = testing::clean_image(kWidth, kHeight).color;
@@ -228,15 +208,13 @@ TEST_F(DenoiseCommand, FramesAreThoseThatExistOrThatAreNamed) {
   GATELIGHT_NEEDS_DENOISER();
   for (const char* const name : {"in-0001.exr", "in-0003.exr", "in-12.exr", "on-0005.exr", "in-0007.png"})
     write_image(picture_of(testing::noisy_image(kWidth, kHeight), {"", "none", "none"}), path(name));
-  const Output all = run_gatelight_inside(
-      {"denoise", path("in-%04d.exr"), "-o", path("out-%04d.exr"), "-o", path("out-%04d.png")});
-  ASSERT_EQ(all.exit_code, 0) << all.err;
+  const Output all = expect_done(run_gatelight_inside(
+      {"denoise", path("in-%04d.exr"), "-o", path("out-%04d.exr"), "-o", path("out-%04d.png")}));
   EXPECT_NE(all.err.find("2 frames"), std::string::npos) << all.err;
   for (const char* const name : {"out-0001.exr", "out-0003.exr", "out-0001.png", "out-0003.png"})
     EXPECT_TRUE(std::filesystem::exists(path(name))) << name;
-  ASSERT_EQ(run_gatelight_inside({"denoise", path("in-%04d.exr"), "-o", path("n-%04d.exr"), "--frames", "3"})
-                .exit_code,
-            0);
+  expect_done(
+      run_gatelight_inside({"denoise", path("in-%04d.exr"), "-o", path("n-%04d.exr"), "--frames", "3"}));
   EXPECT_FALSE(std::filesystem::exists(path("n-0001.exr")));
   EXPECT_EQ(read_file(path("n-0003.exr")), read_file(path("out-0003.exr")));
   expect_failure(
@@ -254,9 +232,8 @@ TEST_F(DenoiseCommand, PutsAnotherBackgroundBehindThePicture) {
   GATELIGHT_NEEDS_DENOISER();
   const std::string input = render("a.exr", {"--aov", "denoising", "--background", "transparent"});
   const std::string red = render("red.exr", {"--denoiser", "oidn", "--background", "1,0,0"});
-  ASSERT_EQ(run_gatelight_inside({"denoise", input, "-o", path("b.exr"), "--quiet", "--background", "1,0,0"})
-                .exit_code,
-            0);
+  expect_done(
+      run_gatelight_inside({"denoise", input, "-o", path("b.exr"), "--quiet", "--background", "1,0,0"}));
   EXPECT_EQ(beauty(path("b.exr")), beauty(red));
   // Its samples have no alpha.
   const std::string raw = render("raw.exr", {"--denoiser", "oidn", "--aov", "raw", "--background", "1,0,0"});
@@ -269,8 +246,7 @@ TEST_F(DenoiseCommand, ThreadsDoNotChangeTheFile) {
   const std::string input = render("a.exr", {"--aov", "denoising"});
   for (const char* threads : {"1", "2"}) {
     const std::string output = path(std::string(threads) + ".exr");
-    ASSERT_EQ(
-        run_gatelight_inside({"denoise", input, "-o", output, "--threads", threads, "--quiet"}).exit_code, 0);
+    expect_done(run_gatelight_inside({"denoise", input, "-o", output, "--threads", threads, "--quiet"}));
   }
   EXPECT_EQ(read_file(path("1.exr")), read_file(path("2.exr")));
 }
@@ -296,8 +272,7 @@ TEST_F(DenoiseCommand, WithoutTheLibraryPresetsWarnAndTheDenoiserRefuses) {
     words.insert(words.end(), small.begin(), small.end());
     return run_gatelight_inside(words);
   };
-  const Output warned = run({"render", scene, "-o", path("p.png"), "--preset", "preview"});
-  EXPECT_EQ(warned.exit_code, 0);
+  const Output warned = expect_done(run({"render", scene, "-o", path("p.png"), "--preset", "preview"}));
   EXPECT_NE(warned.err.find("warning: the picture keeps its noise: Open Image Denoise was not found"),
             std::string::npos)
       << warned.err;

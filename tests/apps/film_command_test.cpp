@@ -22,9 +22,7 @@ class Film : public FolderTest {
  protected:
   static Output render(const std::string& scene, std::vector<std::string> flags) {
     flags.insert(flags.begin(), {"render", scene});
-    const Output run = run_gatelight(flags);
-    EXPECT_EQ(run.exit_code, 0) << run.err;
-    return run;
+    return expect_done(run_gatelight(flags));
   }
 
   float exposure_of(const std::string& stats) const {
@@ -45,25 +43,10 @@ class Film : public FolderTest {
 
 TEST_F(Film, HasTheSameFilesInAnyRange) {
   const auto run = [&](const std::string& name, std::vector<std::string> more) {
-    const std::vector<std::string> words = {"--preset",
-                                            "preview",
-                                            "--integrator",
-                                            "path",
-                                            "--temporal",
-                                            "off",
-                                            "--spp",
-                                            "2",
-                                            "--size",
-                                            "32x18",
-                                            "--aov",
-                                            "motion,motion-next",
-                                            "--exr",
-                                            "float",
-                                            "--reproducible",
-                                            "-o",
-                                            path(name + "-%d.exr"),
-                                            "-o",
-                                            path(name + "-%d.png")};
+    const std::vector<std::string> words = words_of(
+        "--preset preview --integrator path --temporal off --spp 2 --size 32x18 --aov motion,motion-next "
+        "--exr float --reproducible -o {} -o {}",
+        {path(name + "-%d.exr"), path(name + "-%d.png")});
     more.insert(more.end(), words.begin(), words.end());
     return render(kMovingRoom, more);
   };
@@ -143,9 +126,8 @@ class FadingFilm : public Film {
     return file.write(folder).string();
   }
   float exposure(const std::string& scene, std::vector<std::string> more) const {
-    const std::vector<std::string> words = {"--exposure",    "auto",           "--spp", "1",
-                                            "--environment", "none",           "-o",    path("f-%d.png"),
-                                            "--stats",       path("f-%d.json")};
+    const std::vector<std::string> words = words_of(
+        "--exposure auto --spp 1 --environment none -o {} --stats {}", {path("f-%d.png"), path("f-%d.json")});
     more.insert(more.end(), words.begin(), words.end());
     render(scene, more);
     return exposure_of("f-6.json");

@@ -45,9 +45,7 @@ class FilmSky : public FolderTest {
   Output render(std::vector<std::string> flags) const {
     flags.insert(flags.begin(),
                  {"render", path("film.glb"), "--size", "24x16", "--spp", "4", "--integrator", "path"});
-    const Output output = run_gatelight(flags);
-    EXPECT_EQ(output.exit_code, 0) << output.err;
-    return output;
+    return expect_done(run_gatelight(flags));
   }
 
   std::vector<float> colors_of(const std::string& file) const {

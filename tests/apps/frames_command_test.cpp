@@ -18,14 +18,9 @@ class Frames : public FolderTest {
  protected:
   /// The cache learns, and the denoiser carries light where it is installed.
   Output render(const std::vector<std::string>& flags, const std::string& scene = "moving-room") const {
-    std::vector<std::string> words = {"render",         GATELIGHT_SOURCE_DIR "/data/" + scene + ".glb",
-                                      "--size",         "40x24",
-                                      "--spp",          "2",
-                                      "--preset",       "standard",
-                                      "--integrator",   "nrc",
-                                      "--reproducible", "--exr",
-                                      "float"};
-    words.insert(words.end(), steps_.begin(), steps_.end());
+    std::vector<std::string> words = words_of(
+        "render {} --size 40x24 --spp 2 --preset standard --integrator nrc --reproducible --exr float",
+        {GATELIGHT_SOURCE_DIR "/data/" + scene + ".glb"}, steps_);
     words.insert(words.end(), flags.begin(), flags.end());
     return run_gatelight(words);
   }
@@ -33,16 +28,13 @@ class Frames : public FolderTest {
   /// Frame 2 of a run, alone after the cache of the frame before, and after a resume. Returns what the run of
   /// all frames prints.
   std::string go_on() const {
-    const Output all =
-        render({"--frames", "0:2", "--fps", "6", "-o", path("a-%d.exr"), "--cache-out", path("cache-%d")});
-    EXPECT_EQ(all.exit_code, 0) << all.err;
-    const Output one =
-        render({"--frames", "2:2", "--fps", "6", "-o", path("b.exr"), "--cache-in", path("cache-1")});
-    EXPECT_EQ(one.exit_code, 0) << one.err;
+    const Output all = expect_done(
+        render({"--frames", "0:2", "--fps", "6", "-o", path("a-%d.exr"), "--cache-out", path("cache-%d")}));
+    const Output one = expect_done(
+        render({"--frames", "2:2", "--fps", "6", "-o", path("b.exr"), "--cache-in", path("cache-1")}));
     EXPECT_EQ(colors_of("a-2.exr"), colors_of("b.exr")) << "the headers differ: one names the cache";
-    const Output resumed = render({"--frames", "0:2", "--fps", "6", "-o", path("c-%d.exr"), "--checkpoint",
-                                   path("cache-1"), "--resume"});
-    EXPECT_EQ(resumed.exit_code, 0) << resumed.err;
+    expect_done(render({"--frames", "0:2", "--fps", "6", "-o", path("c-%d.exr"), "--checkpoint",
+                        path("cache-1"), "--resume"}));
     EXPECT_FALSE(std::filesystem::exists(path("c-1.exr")));
     expect_same_file("a-2.exr", "c-2.exr");
     return all.out + all.err;
@@ -60,8 +52,7 @@ class Frames : public FolderTest {
 };
 
 TEST_F(Frames, AreTheSameForAnyThreadsAndAfterAResume) {
-  const Output whole = render({"--frames", "0:3", "--fps", "6", "-o", path("a-%d.exr"), "--threads", "2"});
-  ASSERT_EQ(whole.exit_code, 0) << whole.err;
+  expect_done(render({"--frames", "0:3", "--fps", "6", "-o", path("a-%d.exr"), "--threads", "2"}));
   const std::vector<std::string> one = {"-o", path("b-%d.exr"), "--threads",  "1", "--fps",
                                         "6",  "--checkpoint",   path("state")};
   const auto with = [&](std::vector<std::string> flags) {
@@ -70,12 +61,11 @@ TEST_F(Frames, AreTheSameForAnyThreadsAndAfterAResume) {
   };
   // The first run makes only two of the frames. They are scouted with all that it makes, so all four are
   // named.
-  ASSERT_EQ(render(with({"--frames", "0:3", "--resume"})).exit_code, 0);
+  expect_done(render(with({"--frames", "0:3", "--resume"})));
   for (const char* frame : {"0", "1", "2", "3"})
     expect_same_file(std::string("a-") + frame + ".exr", std::string("b-") + frame + ".exr");
   std::filesystem::remove(path("b-3.exr"));
-  const Output again = render(with({"--frames", "0:3", "--resume"}));
-  EXPECT_EQ(again.exit_code, 0) << again.err;
+  expect_done(render(with({"--frames", "0:3", "--resume"})));
   EXPECT_FALSE(std::filesystem::exists(path("b-3.exr"))) << "the state says that it is done";
 }
 
@@ -94,28 +84,19 @@ TEST_F(Frames, GoOnWithStepsThatAreChosen) {
 TEST_F(Frames, WithoutACacheResumeToo) {
   const std::vector<std::string> paths = {"--integrator", "path"};
   const auto run = [&](const std::string& output, const std::vector<std::string>& more) {
-    std::vector<std::string> words = {"render",         GATELIGHT_SOURCE_DIR "/data/moving-room.glb",
-                                      "--size",         "40x24",
-                                      "--spp",          "2",
-                                      "--denoiser",     "auto",
-                                      "--fps",          "6",
-                                      "--reproducible", "--exr",
-                                      "float",          "-o",
-                                      path(output)};
-    words.insert(words.end(), more.begin(), more.end());
-    return run_gatelight(words);
+    return run_gatelight(
+        words_of("render {} --size 40x24 --spp 2 --denoiser auto --fps 6 --reproducible --exr float -o {}",
+                 {GATELIGHT_SOURCE_DIR "/data/moving-room.glb", path(output)}, more));
   };
-  ASSERT_EQ(run("a-%d.exr", {"--frames", "0:2"}).exit_code, 0);
-  ASSERT_EQ(run("b-%d.exr", {"--frames", "0:1", "--checkpoint", path("state")}).exit_code, 0);
-  const Output rest = run("b-%d.exr", {"--frames", "0:2", "--checkpoint", path("state"), "--resume"});
-  ASSERT_EQ(rest.exit_code, 0) << rest.err;
+  expect_done(run("a-%d.exr", {"--frames", "0:2"}));
+  expect_done(run("b-%d.exr", {"--frames", "0:1", "--checkpoint", path("state")}));
+  expect_done(run("b-%d.exr", {"--frames", "0:2", "--checkpoint", path("state"), "--resume"}));
   expect_same_file("a-2.exr", "b-2.exr");
 }
 
 TEST_F(Frames, OfATurntableComeBack) {
-  const Output turn = render(
-      {"--turntable", "4", "--frames", "0:4:4", "--temporal", "off", "-o", path("t-%d.exr")}, "cornell-box");
-  ASSERT_EQ(turn.exit_code, 0) << turn.err;
+  expect_done(render({"--turntable", "4", "--frames", "0:4:4", "--temporal", "off", "-o", path("t-%d.exr")},
+                     "cornell-box"));
   EXPECT_FALSE(read_file(path("t-0.exr")) == read_file(path("t-4.exr"))) << "other random numbers";
 }
 
@@ -135,66 +116,52 @@ TEST_F(Frames, AreShownWithOneExposure) {
     more.insert(more.begin(), words.begin(), words.end());
     return run_gatelight(more);
   };
-  const Output chosen = run({"--frames", "0:1", "--exposure", "auto", "-o", path("a-%d.png"), "--stats",
-                             path("a-%d.json"), "--checkpoint", path("state")});
-  ASSERT_EQ(chosen.exit_code, 0) << chosen.err;
+  expect_done(run({"--frames", "0:1", "--exposure", "auto", "-o", path("a-%d.png"), "--stats",
+                   path("a-%d.json"), "--checkpoint", path("state")}));
   const auto exposure = [&](const char* file) {
     return nlohmann::json::parse(read_file(path(file)))["exposure"].get<float>();
   };
   EXPECT_NE(exposure("a-0.json"), 0.0f);
   EXPECT_EQ(exposure("a-1.json"), exposure("a-0.json"));
   const std::string stops = std::to_string(exposure("a-0.json"));
-  ASSERT_EQ(run({"--frames", "0:1", "--exposure", stops, "-o", path("b-%d.png")}).exit_code, 0);
+  expect_done(run({"--frames", "0:1", "--exposure", stops, "-o", path("b-%d.png")}));
   expect_same_file("a-1.png", "b-1.png");
-  const Output rest = run({"--frames", "0:2", "--exposure", "auto", "-o", path("a-%d.png"), "--stats",
-                           path("a-%d.json"), "--checkpoint", path("state"), "--resume"});
-  ASSERT_EQ(rest.exit_code, 0) << rest.err;
+  expect_done(run({"--frames", "0:2", "--exposure", "auto", "-o", path("a-%d.png"), "--stats",
+                   path("a-%d.json"), "--checkpoint", path("state"), "--resume"}));
   EXPECT_EQ(exposure("a-2.json"), exposure("a-0.json"));
 }
 
 TEST_F(Frames, ThatAreThereStayAsTheyAre) {
   const auto run = [&](std::vector<std::string> more) {
-    const std::vector<std::string> words = {"render",
-                                            GATELIGHT_SOURCE_DIR "/data/moving-room.glb",
-                                            "--size",
-                                            "40x24",
-                                            "--spp",
-                                            "1",
-                                            "--reproducible",
-                                            "-o",
-                                            path("shot_%02d/f.exr"),
-                                            "-o",
-                                            path("f-%d.png")};
+    const std::vector<std::string> words =
+        words_of("render {} --size 40x24 --spp 1 --reproducible -o {} -o {}",
+                 {GATELIGHT_SOURCE_DIR "/data/moving-room.glb", path("shot_%02d/f.exr"), path("f-%d.png")});
     more.insert(more.begin(), words.begin(), words.end());
     return run_gatelight(more);
   };
-  const Output all = run({"--frames", "1,3-4"});
-  ASSERT_EQ(all.exit_code, 0) << all.err;
+  expect_done(run({"--frames", "1,3-4"}));
   const std::string third = read_file(path("shot_03/f.exr"));
   folder.write("shot_01/f.exr", "kept");
   folder.write("f-4.png", "");
   std::filesystem::remove(path("shot_03/f.exr"));
-  const Output rest = run({"--frames", "1,3-4", "--skip-existing"});
-  ASSERT_EQ(rest.exit_code, 0) << rest.err;
+  const Output rest = expect_done(run({"--frames", "1,3-4", "--skip-existing"}));
   EXPECT_NE(rest.err.find("skipped   1 of 3"), std::string::npos) << rest.err;
   EXPECT_EQ(read_file(path("shot_01/f.exr")), "kept");
   EXPECT_TRUE(read_file(path("shot_03/f.exr")) == third);
   EXPECT_GT(std::filesystem::file_size(path("f-4.png")), 0u) << "an empty file is no picture";
-  const Output none = run({"--frames", "1,3-4", "--skip-existing"});
-  ASSERT_EQ(none.exit_code, 0) << none.err;
+  const Output none = expect_done(run({"--frames", "1,3-4", "--skip-existing"}));
   EXPECT_NE(none.err.find("skipped   3 of 3"), std::string::npos) << none.err;
   EXPECT_EQ(read_file(path("shot_01/f.exr")), "kept");
 }
 
 TEST_F(Frames, OfAllCamerasAreThoseOfEach) {
   const auto run = [&](const std::string& camera, const std::string& output) {
-    return run_gatelight({"render", GATELIGHT_SOURCE_DIR "/data/teapot-stadium.glb", "--size", "32x18",
-                          "--spp", "1", "--reproducible", "--turntable", "2", "--camera", camera, "-o",
-                          path(output)});
+    return run_gatelight(
+        words_of("render {} --size 32x18 --spp 1 --reproducible --turntable 2 --camera {} -o {}",
+                 {GATELIGHT_SOURCE_DIR "/data/teapot-stadium.glb", camera, path(output)}));
   };
-  const Output all = run("all", "{camera}-%d.exr");
-  ASSERT_EQ(all.exit_code, 0) << all.err;
-  ASSERT_EQ(run("hall", "alone-%d.exr").exit_code, 0);
+  expect_done(run("all", "{camera}-%d.exr"));
+  expect_done(run("hall", "alone-%d.exr"));
   for (const char* frame : {"0", "1"}) {
     EXPECT_EQ(colors_of(std::string("hall-") + frame + ".exr"),
               colors_of(std::string("alone-") + frame + ".exr"));
@@ -203,8 +170,7 @@ TEST_F(Frames, OfAllCamerasAreThoseOfEach) {
 }
 
 TEST_F(Frames, TellTheirProgress) {
-  const Output told = render({"--frames", "0:1", "-o", path("f-%d.exr"), "--progress", "json"});
-  EXPECT_EQ(told.exit_code, 0);
+  const Output told = expect_done(render({"--frames", "0:1", "-o", path("f-%d.exr"), "--progress", "json"}));
   for (const char* text : {"\"event\":\"frame\"", "\"frame\":1", "\"frames\":2", "\"event\":\"done\""})
     EXPECT_NE(told.err.find(text), std::string::npos) << text << "\n" << told.err;
 }

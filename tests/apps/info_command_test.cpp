@@ -52,11 +52,10 @@ class InfoCommand : public FolderTest {
   /// A render of the tiny scene into a file whose name needs quotes.
   std::string rendered(const std::vector<std::string>& more = {}) const {
     const std::string scene = folder.write("it's a scene.gltf", tiny_scene());
-    std::vector<std::string> call = {"render", scene,   "-o",     path("a b.exr"), "--size",
-                                     "8x4",    "--spp", "2",      "--environment", "1,1,1",
-                                     "--aov",  "depth", "--quiet"};
-    call.insert(call.end(), more.begin(), more.end());
-    EXPECT_EQ(run_gatelight(call).exit_code, 0);
+    std::vector<std::string> call =
+        words_of("render {} -o {} --size 8x4 --spp 2 --environment 1,1,1 --aov depth --quiet",
+                 {scene, path("a b.exr")}, more);
+    expect_done(run_gatelight(call));
     return path("a b.exr");
   }
 };
@@ -131,8 +130,7 @@ TEST_F(InfoCommand, AnimationsHaveNamesAndLengths) {
 
 TEST_F(InfoCommand, APictureShowsItsRecipe) {
   const std::string picture = rendered({"--region", "2,1,6,3"});
-  const Output text = run_gatelight_inside({"info", picture});
-  EXPECT_EQ(text.exit_code, 0) << text.err;
+  const Output text = expect_done(run_gatelight_inside({"info", picture}));
   EXPECT_THAT(text.out, ::testing::ContainsRegex("\nsize +4 x 2 at 2, 1 of 8 x 4\n"));
   EXPECT_THAT(text.out, ::testing::ContainsRegex("\nlayers +beauty [(]R,G,B[)]\n +depth [(]Z[)]\n"));
   EXPECT_THAT(text.out, ::testing::ContainsRegex("\nspp +2\n"));
@@ -151,8 +149,7 @@ TEST_F(InfoCommand, APictureShowsItsRecipe) {
 
 TEST_F(InfoCommand, TheCommandOfAPictureReproducesIt) {
   const std::string picture = rendered();
-  const Output description = run_gatelight_inside({"info", picture, "--command"});
-  EXPECT_EQ(description.exit_code, 0) << description.err;
+  const Output description = expect_done(run_gatelight_inside({"info", picture, "--command"}));
   EXPECT_EQ(std::count(description.out.begin(), description.out.end(), '\n'), 1);
   EXPECT_THAT(description.out, HasSubstr(R"(it'\''s a scene.gltf')"));
   const std::string before = read_file(picture);
@@ -170,7 +167,7 @@ TEST_F(InfoCommand, APictureWithoutARecipeIsRefused) {
   expect_failure(run_gatelight_inside({"info", path("none.exr")}), 2, {path("none.exr")});
   const std::string silent = rendered({"--reproducible"});
   expect_failure(run_gatelight_inside({"info", silent, "--command"}), 2, {silent, "--reproducible"});
-  EXPECT_EQ(run_gatelight_inside({"info", silent}).exit_code, 0);
+  expect_done(run_gatelight_inside({"info", silent}));
 }
 
 TEST_F(InfoCommand, FlagsOfPicturesAreRefusedForScenesAndViceVersa) {

@@ -38,8 +38,7 @@ class LightFlags : public FolderTest {
     std::vector<std::string> arguments = {"render", scene,    "-o",    file,    "--exr",
                                           "float",  "--size", "24x16", "--spp", "4"};
     arguments.insert(arguments.end(), flags.begin(), flags.end());
-    const Output output = run_gatelight(arguments);
-    EXPECT_EQ(output.exit_code, 0) << output.err;
+    expect_done(run_gatelight(arguments));
     return read_image(file);
   }
 
@@ -85,8 +84,7 @@ TEST_F(LightFlags, IesProfilesShapeALightAndAreInTheRecipe) {
 }
 
 TEST_F(LightFlags, InfoNamesTheLightsThatTheyCanChange) {
-  const Output output = run_gatelight({"info", scene, "--lights", "noon=3;panel=0,4,0"});
-  EXPECT_EQ(output.exit_code, 0) << output.err;
+  const Output output = expect_done(run_gatelight({"info", scene, "--lights", "noon=3;panel=0,4,0"}));
   EXPECT_THAT(output.out, ::testing::HasSubstr("directional 'noon', intensity 3 3 3"));
   EXPECT_THAT(output.out, ::testing::HasSubstr("material 'panel', emission 0 1 0"));
   const json description = json::parse(run_gatelight({"info", scene, "--json", "-"}).out);
@@ -127,15 +125,13 @@ TEST_F(LightFlags, GroupsOfDenoisedPicturesAddUpToRawAndAreMerged) {
   std::vector<std::string> files;
   for (const char* seed : {"1", "2"}) {
     files.push_back((folder / (std::string(seed) + ".exr")).string());
-    const Output output = run_gatelight({"render", scene, "-o", files.back(), "--size", "24x16", "--spp",
-                                         seed[0] == '1' ? "4" : "10", "--seed", seed, "--denoiser", "oidn",
-                                         "--aov", "raw", "--environment", "0.3,0.2,0.1", "--light-groups",
-                                         "key=noon;panel=panel;sky=environment"});
-    ASSERT_EQ(output.exit_code, 0) << output.err;
+    expect_done(run_gatelight({"render", scene, "-o", files.back(), "--size", "24x16", "--spp",
+                               seed[0] == '1' ? "4" : "10", "--seed", seed, "--denoiser", "oidn", "--aov",
+                               "raw", "--environment", "0.3,0.2,0.1", "--light-groups",
+                               "key=noon;panel=panel;sky=environment"}));
   }
   files.push_back((folder / "merged.exr").string());
-  const Output merged = run_gatelight({"merge", "-o", files[2], files[0], files[1]});
-  ASSERT_EQ(merged.exit_code, 0) << merged.err;
+  expect_done(run_gatelight({"merge", "-o", files[2], files[0], files[1]}));
   for (const std::string& file : files) {
     const Picture picture = read_image(file);
     const std::vector<float>& raw = picture.find("raw")->values;
@@ -168,9 +164,8 @@ TEST_F(LightFlags, BadGroupsAreRefusedInOneLine) {
 TEST_F(LightFlags, ASkyLightsASceneWithoutLightsAndIsInTheRecipe) {
   const std::string dark = folder.write("dark.gltf", tiny_scene());
   const std::string file = (folder / "sky.exr").string();
-  const Output output = run_gatelight(
-      {"render", dark, "-o", file, "--size", "24x16", "--spp", "16", "--sky", "sun=180,30, turbidity=2"});
-  EXPECT_EQ(output.exit_code, 0) << output.err;
+  const Output output = expect_done(run_gatelight(
+      {"render", dark, "-o", file, "--size", "24x16", "--spp", "16", "--sky", "sun=180,30, turbidity=2"}));
   EXPECT_EQ(output.err.find("soft sky"), std::string::npos) << output.err;
   const Picture picture = read_image(file);
   EXPECT_GT(middle(picture), 0.1f);  // the sun is in the south, behind the camera

@@ -30,8 +30,7 @@ TEST_F(MergeCommand, WritesTheWeightedMeanIn32Bits) {
   const float fine = 1.0f + 1.0f / 1024.0f;
   const std::string a = picture("a.exr", 2, 1.0f, {{"spp", "16"}, {"seed", "1"}});
   const std::string b = picture("b.exr", 2, fine, {{"spp", "48"}, {"seed", "2"}});
-  const Output output = run_gatelight({"merge", "-o", path("m.exr"), a, b});
-  EXPECT_EQ(output.exit_code, 0) << output.err;
+  const Output output = expect_done(run_gatelight({"merge", "-o", path("m.exr"), a, b}));
   EXPECT_EQ(output.out + output.err, "");
   const renderer::Picture merged = renderer::read_image(path("m.exr"));
   EXPECT_EQ(merged.layers[0].values, std::vector<float>(6, 1.0f + 3.0f / 4096.0f));
@@ -42,13 +41,11 @@ TEST_F(MergeCommand, WritesTheWeightedMeanIn32Bits) {
 TEST_F(MergeCommand, MergesPicturesOfRender) {
   const std::string scene = folder.write("scene.gltf", tiny_scene());
   for (const char* seed : {"1", "2"}) {
-    ASSERT_EQ(run_gatelight_inside({"render", scene, "-o", path(std::string(seed) + ".exr"), "--size", "8x6",
-                                    "--spp", "2", "--seed", seed, "--aov", "variance,depth", "--quiet"})
-                  .exit_code,
-              0);
+    expect_done(
+        run_gatelight_inside({"render", scene, "-o", path(std::string(seed) + ".exr"), "--size", "8x6",
+                              "--spp", "2", "--seed", seed, "--aov", "variance,depth", "--quiet"}));
   }
-  const Output output = run_gatelight_inside({"merge", path("1.exr"), path("2.exr"), "-o", path("m.exr")});
-  ASSERT_EQ(output.exit_code, 0) << output.err;
+  expect_done(run_gatelight_inside({"merge", path("1.exr"), path("2.exr"), "-o", path("m.exr")}));
   const renderer::Picture merged = renderer::read_image(path("m.exr"));
   EXPECT_EQ(merged.layers.size(), 3u);
   EXPECT_EQ(merged.metadata.at("spp"), "4");
@@ -59,8 +56,7 @@ TEST_F(MergeCommand, MergesPicturesOfRender) {
 TEST_F(MergeCommand, EqualSeedsGiveAWarning) {
   const std::string a = picture("a.exr", 1, 1.0f, {{"spp", "1"}, {"seed", "7"}});
   const std::string b = picture("b.exr", 1, 2.0f, {{"spp", "1"}, {"seed", "7"}});
-  const Output output = run_gatelight({"merge", "-o", path("m.exr"), a, b});
-  EXPECT_EQ(output.exit_code, 0);
+  const Output output = expect_done(run_gatelight({"merge", "-o", path("m.exr"), a, b}));
   expect_messages(output.error_lines(), {{"a.exr", "b.exr", "7"}});
 }
 
@@ -95,8 +91,7 @@ TEST_F(MergeCommand, PicturesThatAreNotFiniteAreRefused) {
   const std::string same = picture("c.exr", 2, 1.0f, {{"scene", "b/room.glb"}});
   EXPECT_EQ(run_gatelight_inside({"merge", "-o", path("m.exr"), good, same}).err, "");
   const std::string other = picture("d.exr", 2, 1.0f, {{"scene", "a/hall.glb"}});
-  const Output warned = run_gatelight({"merge", "-o", path("m.exr"), good, other});
-  EXPECT_EQ(warned.exit_code, 0);
+  const Output warned = expect_done(run_gatelight({"merge", "-o", path("m.exr"), good, other}));
   expect_messages(warned.error_lines(), {{"hall.glb", "room.glb"}});
 }
 

@@ -31,8 +31,7 @@ using ::testing::UnorderedElementsAre;
 class RenderCommand : public SquareRenders {};
 
 TEST_F(RenderCommand, WritesEveryOutputAndNothingToStdout) {
-  const Output output = render({"-o", path("a.exr"), "-o", path("b.png")});
-  EXPECT_EQ(output.exit_code, 0) << output.err;
+  const Output output = expect_done(render({"-o", path("a.exr"), "-o", path("b.png")}));
   EXPECT_EQ(output.out, "");
   for (const char* word :
        {"a.exr", "b.png", "load", "build", "render", "write", "1 536", "million/s", "rays", "memory"}) {
@@ -46,7 +45,7 @@ TEST_F(RenderCommand, WritesEveryOutputAndNothingToStdout) {
 }
 
 TEST_F(RenderCommand, TheSquareReflectsHalfOfAWhiteSky) {
-  ASSERT_EQ(render({"-o", path("a.exr"), "--exr", "float", "--spp", "256", "--quiet"}).exit_code, 0);
+  expect_done(render({"-o", path("a.exr"), "--exr", "float", "--spp", "256", "--quiet"}));
   const Picture picture = read_image(path("a.exr"));
   const std::vector<float>& values = picture.layers[0].values;
   // The corner sees the sky, the middle a rough dielectric: half of the light, and what its surface reflects.
@@ -58,38 +57,31 @@ TEST_F(RenderCommand, TheSquareReflectsHalfOfAWhiteSky) {
 
 TEST_F(RenderCommand, ATimeIsInTheRecipeAndDecidesWhoseCheckpointItIs) {
   const auto render_at = [&](const std::string& time) {
-    return run_gatelight({"render",       GATELIGHT_SOURCE_DIR "/data/figure.glb",
-                          "--time",       time,
-                          "--animation",  "walk",
-                          "--size",       "8x8",
-                          "--spp",        "16777216",
-                          "--time-limit", "0.1",
-                          "-o",           path("a.exr"),
-                          "--stats",      path("s.json"),
-                          "--checkpoint", path("c"),
-                          "--resume",     "--quiet"});
+    return run_gatelight(
+        words_of("render {} --time {} --animation walk --size 8x8 --spp 16777216 --time-limit 0.1 -o {} "
+                 "--stats {} --checkpoint {} --resume --quiet",
+                 {GATELIGHT_SOURCE_DIR "/data/figure.glb", time, path("a.exr"), path("s.json"), path("c")}));
   };
-  ASSERT_EQ(render_at("0.25").exit_code, 0);
+  expect_done(render_at("0.25"));
   const json options = json::parse(read_file(path("s.json")))["options"];
   EXPECT_EQ(options["time"], 0.25);
   EXPECT_EQ(options["animation"], "walk");
   ASSERT_TRUE(std::filesystem::exists(path("c")));
-  EXPECT_EQ(render_at("0.25").exit_code, 0);
+  expect_done(render_at("0.25"));
   expect_failure(render_at("0.5"), 2, {path("c"), "geometry"});
 }
 
 TEST_F(RenderCommand, ReproducibleFilesAreEqualForAnyNumberOfThreads) {
-  ASSERT_EQ(render({"-o", path("a.exr"), "--reproducible", "--quiet", "--threads", "1"}).exit_code, 0);
-  ASSERT_EQ(render({"-o", path("b.exr"), "--reproducible", "--quiet", "--threads", "2"}).exit_code, 0);
-  ASSERT_EQ(render({"-o", path("c.exr"), "--reproducible", "--quiet", "--seed", "1"}).exit_code, 0);
+  expect_done(render({"-o", path("a.exr"), "--reproducible", "--quiet", "--threads", "1"}));
+  expect_done(render({"-o", path("b.exr"), "--reproducible", "--quiet", "--threads", "2"}));
+  expect_done(render({"-o", path("c.exr"), "--reproducible", "--quiet", "--seed", "1"}));
   EXPECT_EQ(read_file(path("a.exr")), read_file(path("b.exr")));
   EXPECT_NE(read_image(path("a.exr")).layers[0].values, read_image(path("c.exr")).layers[0].values);
 }
 
 TEST_F(RenderCommand, ARegionIsThePartOfTheFullPicture) {
-  ASSERT_EQ(render({"-o", path("full.exr"), "--exr", "float", "--quiet"}).exit_code, 0);
-  ASSERT_EQ(render({"-o", path("part.exr"), "--exr", "float", "--quiet", "--region", "9,4,14,7"}).exit_code,
-            0);
+  expect_done(render({"-o", path("full.exr"), "--exr", "float", "--quiet"}));
+  expect_done(render({"-o", path("part.exr"), "--exr", "float", "--quiet", "--region", "9,4,14,7"}));
   const Picture full = read_image(path("full.exr"));
   const Picture part = read_image(path("part.exr"));
   EXPECT_EQ(part.width, 5);
@@ -107,7 +99,7 @@ TEST_F(RenderCommand, ARegionIsThePartOfTheFullPicture) {
 }
 
 TEST_F(RenderCommand, AllLayersAreInTheExr) {
-  ASSERT_EQ(render({"-o", path("a.exr"), "--aov", "all", "--quiet"}).exit_code, 0);
+  expect_done(render({"-o", path("a.exr"), "--aov", "all", "--quiet"}));
   const Picture picture = read_image(path("a.exr"));
   for (const char* name :
        {"albedo", "normal", "depth", "position", "primitive", "instance", "samples", "variance"}) {
@@ -118,16 +110,16 @@ TEST_F(RenderCommand, AllLayersAreInTheExr) {
 TEST_F(RenderCommand, CryptomattesAreInTheExrAndStayWhenItIsMergedAndDenoised) {
   GATELIGHT_NEEDS_DENOISER();
   for (const char* seed : {"1", "2"}) {
-    const Output output = render({"-o", path(fmt::format("{}.exr", seed)), "--cryptomatte", "material,object",
-                                  "--seed", seed, "--aov", "denoising", "--stats", "-"});
-    ASSERT_EQ(output.exit_code, 0) << output.err;
+    const Output output =
+        expect_done(render({"-o", path(fmt::format("{}.exr", seed)), "--cryptomatte", "material,object",
+                            "--seed", seed, "--aov", "denoising", "--stats", "-"}));
     EXPECT_THAT(output.err, HasSubstr(", cryptomatte 0."));
     const json stats = json::parse(output.out);
     EXPECT_EQ(stats["options"]["cryptomatte"], json({"object", "material"}));
     EXPECT_GT(stats["seconds"]["cryptomatte"], 0.0);
   }
-  ASSERT_EQ(run_gatelight({"merge", path("1.exr"), path("2.exr"), "-o", path("m.exr")}).exit_code, 0);
-  ASSERT_EQ(run_gatelight({"denoise", path("m.exr"), "-o", path("r.exr")}).exit_code, 0);
+  expect_done(run_gatelight({"merge", path("1.exr"), path("2.exr"), "-o", path("m.exr")}));
+  expect_done(run_gatelight({"denoise", path("m.exr"), "-o", path("r.exr")}));
   const Picture first = read_image(path("1.exr"));
   for (const char* name : {"1.exr", "m.exr", "r.exr"}) {
     const Picture picture = read_image(path(name));
@@ -157,14 +149,12 @@ TEST_F(RenderCommand, CryptomattesAreInTheExrAndStayWhenItIsMergedAndDenoised) {
 }
 
 TEST_F(RenderCommand, CryptomattesThatNoOutputStoresGiveAWarning) {
-  const Output output = render({"-o", path("a.png"), "--cryptomatte", "object"});
-  EXPECT_EQ(output.exit_code, 0);
+  const Output output = expect_done(render({"-o", path("a.png"), "--cryptomatte", "object"}));
   expect_messages(output.warnings(), {{"--cryptomatte", ".exr"}});
 }
 
 TEST_F(RenderCommand, AmbientOcclusionOfAnOpenSquareIsOne) {
-  ASSERT_EQ(render({"-o", path("a.exr"), "--integrator", "ao", "--ao-distance", "inf", "--quiet"}).exit_code,
-            0);
+  expect_done(render({"-o", path("a.exr"), "--integrator", "ao", "--ao-distance", "inf", "--quiet"}));
   const Picture picture = read_image(path("a.exr"));
   EXPECT_FLOAT_EQ(picture.layers[0].values[3 * (8 * 24 + 12)], 1.0f);
 }
@@ -196,15 +186,13 @@ TEST_F(RenderCommand, ASceneReadsNothingOutsideItsFolderUnlessThatIsAllowed) {
 }
 
 TEST_F(RenderCommand, InfoListsTheContentsOfAScene) {
-  const Output text = run_gatelight({"info", scene});
-  EXPECT_EQ(text.exit_code, 0) << text.err;
+  const Output text = expect_done(run_gatelight({"info", scene}));
   for (const char* word : {"triangles", "2 stored", "front", "bounds", "requires", "memory"}) {
     EXPECT_THAT(text.out, HasSubstr(word));
   }
   std::string odd = tiny_scene();
   odd.replace(odd.rfind("\"front\", \"type\""), 7, R"("a\n\u001b]0;b")");
-  const Output description = run_gatelight_inside({"info", folder.write("odd.gltf", odd)});
-  EXPECT_EQ(description.exit_code, 0) << description.err;
+  const Output description = expect_done(run_gatelight_inside({"info", folder.write("odd.gltf", odd)}));
   EXPECT_THAT(description.out, HasSubstr("'a  ]0;b'")) << "no control characters reach the terminal";
   const json info = json::parse(run_gatelight({"info", scene, "--json", "-"}).out);
   EXPECT_EQ(info["triangles"], 2);

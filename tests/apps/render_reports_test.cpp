@@ -31,8 +31,7 @@ using ::testing::UnorderedElementsAre;
 class RenderReports : public SquareRenders {};
 
 TEST_F(RenderReports, StatisticsHoldEveryKeyOfTheSchema) {
-  const Output output = render({"-o", path("a.exr"), "--stats", path("s.json"), "--seed", "5"});
-  ASSERT_EQ(output.exit_code, 0) << output.err;
+  const Output output = expect_done(render({"-o", path("a.exr"), "--stats", path("s.json"), "--seed", "5"}));
   const json stats = json::parse(read_file(path("s.json")));
   EXPECT_THAT(keys(stats), IsSupersetOf({"schema", "version", "command", "options", "isa", "threads",
                                          "device", "width", "height", "spp", "samples", "seconds", "rays",
@@ -97,13 +96,12 @@ TEST_F(RenderReports, StatisticsHoldEveryKeyOfTheSchema) {
 }
 
 TEST_F(RenderReports, StatisticsAreTheOnlyOutputOnStdout) {
-  const Output output = render({"-o", path("a.png"), "--stats", "-"});
-  EXPECT_EQ(output.exit_code, 0);
+  const Output output = expect_done(render({"-o", path("a.png"), "--stats", "-"}));
   EXPECT_EQ(json::parse(output.out)["spp"], 4);
 }
 
 TEST_F(RenderReports, TheRecipeIsInTheHeader) {
-  ASSERT_EQ(render({"-o", path("a.exr"), "--seed", "9", "--quiet"}).exit_code, 0);
+  expect_done(render({"-o", path("a.exr"), "--seed", "9", "--quiet"}));
   const std::map<std::string, std::string> recipe = read_image(path("a.exr")).metadata;
   for (const char* key :
        {"version", "command", "seed", "spp", "integrator", "isa", "options", "threads", "seconds"}) {
@@ -117,28 +115,25 @@ TEST_F(RenderReports, TheRecipeIsInTheHeader) {
 }
 
 TEST_F(RenderReports, TheEstimatedErrorIsInSummaryStatisticsAndRecipe) {
-  const Output output = render({"-o", path("a.exr"), "--spp", "4", "--stats", path("s.json")});
-  ASSERT_EQ(output.exit_code, 0) << output.err;
+  const Output output = expect_done(render({"-o", path("a.exr"), "--spp", "4", "--stats", path("s.json")}));
   EXPECT_THAT(output.err, HasSubstr("; estimated error "));
   EXPECT_TRUE(json::parse(read_file(path("s.json")))["estimated_error"].is_number());
   EXPECT_TRUE(read_image(path("a.exr")).metadata.contains("estimated_error"));
-  const Output one = render({"-o", path("a.exr"), "--spp", "1", "--stats", path("s.json")});
-  ASSERT_EQ(one.exit_code, 0) << one.err;
+  const Output one = expect_done(render({"-o", path("a.exr"), "--spp", "1", "--stats", path("s.json")}));
   EXPECT_THAT(one.err, Not(HasSubstr("estimated error")));
   EXPECT_FALSE(json::parse(read_file(path("s.json"))).contains("estimated_error"));
   EXPECT_FALSE(read_image(path("a.exr")).metadata.contains("estimated_error"));
 }
 
 TEST_F(RenderReports, AnErrorThatIsNotReachedIsReported) {
-  const Output reached = render_open({"-o", path("a.png"), "--max-error", "1000", "--stats", path("s.json")});
-  ASSERT_EQ(reached.exit_code, 0) << reached.err;
+  const Output reached =
+      expect_done(render_open({"-o", path("a.png"), "--max-error", "1000", "--stats", path("s.json")}));
   EXPECT_THAT(reached.err, Not(HasSubstr("ended it first")));
   const json stats = json::parse(read_file(path("s.json")));
   EXPECT_EQ(stats["ended_by"], "max-error");
   EXPECT_EQ(stats["spp"], 4) << "of the first check";
   EXPECT_EQ(stats["interrupted"], false);
-  const Output missed = render({"-o", path("a.png"), "--max-error", "1e-9", "--spp", "8"});
-  ASSERT_EQ(missed.exit_code, 0) << missed.err;
+  const Output missed = expect_done(render({"-o", path("a.png"), "--max-error", "1e-9", "--spp", "8"}));
   EXPECT_THAT(missed.err, HasSubstr("--spp ended it first"));
 }
 
@@ -149,8 +144,7 @@ TEST_F(RenderReports, APresetFindsTheExposureOfItsPngAndReportsIt) {
     arguments.insert(arguments.end(), more.begin(), more.end());
     return render_open(arguments);
   };
-  const Output found = exposed({"-o", path("auto.png"), "--stats", path("auto.json")});
-  ASSERT_EQ(found.exit_code, 0) << found.err;
+  const Output found = expect_done(exposed({"-o", path("auto.png"), "--stats", path("auto.json")}));
   const double stops = json::parse(read_file(path("auto.json")))["exposure"];
   EXPECT_NE(stops, 0.0);
   EXPECT_THAT(found.err, HasSubstr(fmt::format("--exposure {:.1f} keeps it", stops)));
@@ -184,10 +178,9 @@ TEST_F(RenderReports, LampsInWattsAreNamedWhereTheyAreTheReason) {
         {{"translation", {0, 0, 2}}, {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
     lit["scenes"][0]["nodes"].push_back(2);
     lit["materials"][0].update(more);
-    const Output output =
+    const Output output = expect_done(
         run_gatelight({"render", folder.write("lit.gltf", lit.dump()), "-o", path("a.png"), "--size", "24x16",
-                       "--spp", "4", "--environment", "none", "--lights", lights});
-    EXPECT_EQ(output.exit_code, 0) << output.err;
+                       "--spp", "4", "--environment", "none", "--lights", lights}));
     return output.warnings();
   };
   // Blender writes a lamp of 200 W as 200 W * 683 lm/W / (4 pi) = 10870 cd.
@@ -205,8 +198,7 @@ TEST_F(RenderReports, ValuesBeyondHalfAreCountedByLayer) {
   lamp["materials"][0]["emissiveFactor"] = {1, 1, 0};
   lamp["materials"][0]["extensions"]["KHR_materials_emissive_strength"]["emissiveStrength"] = 1e6;
   scene = folder.write("lamp.gltf", lamp.dump());
-  const Output half = render({"-o", path("a.exr"), "--stats", "-"});
-  ASSERT_EQ(half.exit_code, 0) << half.err;
+  const Output half = expect_done(render({"-o", path("a.exr"), "--stats", "-"}));
   const Picture picture = read_image(path("a.exr"));
   const std::vector<float>& values = picture.layers[0].values;
   const auto count = std::count(values.begin(), values.end(), 65504.0f);
@@ -238,8 +230,7 @@ TEST_F(RenderReports, SamplesThatAreNotFiniteAreLocatedOrStopTheRun) {
                                           "--size", "24x16",       "--spp", "4"};
   std::vector<std::string> dropping = {"render", scene, "--stats", "-"};
   dropping.insert(dropping.end(), flags.begin(), flags.end());
-  const Output dropped = run_gatelight(dropping);
-  EXPECT_EQ(dropped.exit_code, 0) << dropped.err;
+  const Output dropped = expect_done(run_gatelight(dropping));
   const json stats = json::parse(dropped.out);
   EXPECT_GT(stats["nonfinite"]["count"], 0);
   EXPECT_THAT(keys(stats["nonfinite"]["samples"][0]), UnorderedElementsAre("x", "y", "sample", "seed"));
@@ -256,8 +247,7 @@ TEST_F(RenderReports, SamplesThatAreNotFiniteAreLocatedOrStopTheRun) {
 }
 
 TEST_F(RenderReports, ProgressLinesAreJson) {
-  const Output output = render({"-o", path("a.png"), "--progress", "json"});
-  EXPECT_EQ(output.exit_code, 0);
+  const Output output = expect_done(render({"-o", path("a.png"), "--progress", "json"}));
   std::istringstream lines(output.err);
   std::set<std::string> events;
   double last_fraction = 0.0;
@@ -285,23 +275,20 @@ TEST_F(RenderReports, WarningsGoToStderrAndIntoTheStatistics) {
   std::string text = tiny_scene();
   text.insert(1, R"("extensionsUsed": ["EXT_of_another_{}_world"],)");
   scene = folder.write("warn.gltf", text);
-  const Output output = render({"-o", path("a.png"), "--stats", "-"});
-  EXPECT_EQ(output.exit_code, 0) << output.err;
+  const Output output = expect_done(render({"-o", path("a.png"), "--stats", "-"}));
   expect_messages(output.warnings(), {{"EXT_of_another_{}_world"}});
   expect_messages(json::parse(output.out)["warnings"], {{"EXT_of_another_{}_world"}});
 }
 
 TEST_F(RenderReports, QuietPrintsNothing) {
-  const Output output = render({"-o", path("a.png"), "--quiet", "--progress", "json"});
-  EXPECT_EQ(output.exit_code, 0);
+  const Output output = expect_done(render({"-o", path("a.png"), "--quiet", "--progress", "json"}));
   EXPECT_EQ(output.out, "");
   EXPECT_EQ(output.err, "");
 }
 
 TEST_F(RenderReports, ATimeLimitEndsTheRunWithCode0) {
   const Output output =
-      render({"-o", path("a.png"), "--spp", "16777216", "--time-limit", "0.3", "--stats", "-"});
-  EXPECT_EQ(output.exit_code, 0) << output.err;
+      expect_done(render({"-o", path("a.png"), "--spp", "16777216", "--time-limit", "0.3", "--stats", "-"}));
   const json stats = json::parse(output.out);
   EXPECT_EQ(stats["interrupted"], true);
   EXPECT_GE(stats["spp"], 1);
@@ -310,15 +297,13 @@ TEST_F(RenderReports, ATimeLimitEndsTheRunWithCode0) {
 TEST_F(RenderReports, ATimeLimitDecidesHowManySamplesAPresetHas) {
   for (const char* preset : {"preview", "standard", "final"}) {
     SCOPED_TRACE(preset);
-    const Output output =
-        render_open({"-o", path("a.exr"), "--preset", preset, "--time-limit", "0.5", "--stats", "-"});
-    EXPECT_EQ(output.exit_code, 0) << output.err;
+    const Output output = expect_done(
+        render_open({"-o", path("a.exr"), "--preset", preset, "--time-limit", "0.5", "--stats", "-"}));
     const json stats = json::parse(output.out);
     EXPECT_EQ(stats["ended_by"], "time-limit");
     EXPECT_GE(stats["spp"], 1);
-    const Output few = render({"-o", path("a.exr"), "--preset", preset, "--time-limit", "100", "--spp", "2",
-                               "--train-steps", "1", "--stats", "-"});
-    EXPECT_EQ(few.exit_code, 0) << few.err;
+    const Output few = expect_done(render({"-o", path("a.exr"), "--preset", preset, "--time-limit", "100",
+                                           "--spp", "2", "--train-steps", "1", "--stats", "-"}));
     EXPECT_EQ(json::parse(few.out)["spp"], 2) << "a given number is a limit too";
     EXPECT_EQ(json::parse(few.out)["train"]["steps"], 1);
     EXPECT_EQ(json::parse(few.out)["ended_by"], "spp");

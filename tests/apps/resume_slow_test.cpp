@@ -34,12 +34,9 @@ void PrintTo(const Kill& kill, std::ostream* stream) {
 class Killed : public ::testing::TestWithParam<Kill> {
  protected:
   std::vector<std::string> command(const std::string& output, const char* threads) const {
-    std::vector<std::string> words = {"render",    GATELIGHT_SOURCE_DIR "/data/cornell-box.glb",
-                                      "-o",        (folder / output).string(),
-                                      "--threads", threads,
-                                      "--size",    "96x96",
-                                      "--exr",     "float",
-                                      "--quiet",   "--reproducible"};
+    std::vector<std::string> words =
+        words_of("render {} -o {} --threads {} --size 96x96 --exr float --quiet --reproducible",
+                 {GATELIGHT_SOURCE_DIR "/data/cornell-box.glb", (folder / output).string(), threads});
     words.insert(words.end(), GetParam().arguments.begin(), GetParam().arguments.end());
     return words;
   }
@@ -48,7 +45,7 @@ class Killed : public ::testing::TestWithParam<Kill> {
 };
 
 TEST_P(Killed, ResumingAfterKillsAtAnyMomentGivesTheSameBytes) {
-  ASSERT_EQ(run_gatelight(command("straight.exr", "2")).exit_code, 0);
+  expect_done(run_gatelight(command("straight.exr", "2")));
   const std::string checkpoint = (folder / "checkpoint").string();
   std::vector<std::string> words = command("killed.exr", "1");
   for (const char* word : {"--checkpoint", checkpoint.c_str(), "--checkpoint-every", "0", "--resume"})
@@ -73,8 +70,7 @@ TEST_P(Killed, ResumingAfterKillsAtAnyMomentGivesTheSameBytes) {
     ++killed;
   }
   EXPECT_GT(killed, 1);
-  const Output output = run_gatelight(words);
-  EXPECT_EQ(output.exit_code, 0) << output.err;
+  expect_done(run_gatelight(words));
   EXPECT_EQ(read_file(folder / "killed.exr") == read_file(folder / "straight.exr"), true);
 }
 
@@ -91,16 +87,12 @@ INSTANTIATE_TEST_SUITE_P(Kinds, Killed,
 TEST(Resuming, ReportsWhichOptionDiffers) {
   const TemporaryFolder folder;
   const auto run = [&](const std::vector<std::string>& more) {
-    std::vector<std::string> words = {"render",       GATELIGHT_SOURCE_DIR "/data/cornell-box.glb",
-                                      "-o",           (folder / "a.exr").string(),
-                                      "--size",       "16x16",
-                                      "--spp",        "2",
-                                      "--checkpoint", (folder / "c").string(),
-                                      "--resume",     "--quiet"};
-    words.insert(words.end(), more.begin(), more.end());
-    return run_gatelight(words);
+    return run_gatelight(words_of(
+        "render {} -o {} --size 16x16 --spp 2 --checkpoint {} --resume --quiet",
+        {GATELIGHT_SOURCE_DIR "/data/cornell-box.glb", (folder / "a.exr").string(), (folder / "c").string()},
+        more));
   };
-  EXPECT_EQ(run({}).exit_code, 0);
+  expect_done(run({}));
   const Output other = run({"--seed", "5"});
   expect_failure(other, 2, {"seed", "0", "5"});
   const Output environment = run({"--environment", "1,1,1"});

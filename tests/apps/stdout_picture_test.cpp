@@ -32,8 +32,7 @@ TEST_F(StdoutPicture, HasTheBytesOfTheFile) {
   const std::pair<const char*, const char*> cases[] = {
       {"-", "a.png"}, {"png:-", "a.png"}, {"exr:-", "a.exr"}, {"JPG:-", "a.jpg"}};
   for (const auto& [name, file] : cases) {
-    const Output output = render({"-o", name, "-o", path(file), "--reproducible"});
-    ASSERT_EQ(output.exit_code, 0) << output.err;
+    const Output output = expect_done(render({"-o", name, "-o", path(file), "--reproducible"}));
     EXPECT_EQ(output.out, read_file(path(file))) << name;
     EXPECT_THAT(output.err, HasSubstr("written")) << name;
   }
@@ -41,15 +40,14 @@ TEST_F(StdoutPicture, HasTheBytesOfTheFile) {
 
 TEST_F(StdoutPicture, IsDenoised) {
   GATELIGHT_NEEDS_DENOISER();
-  ASSERT_EQ(render({"-o", path("a.exr"), "--aov", "denoising", "--quiet"}).exit_code, 0);
-  const Output output = run_gatelight({"denoise", path("a.exr"), "-o", "-", "-o", path("b.png")});
-  ASSERT_EQ(output.exit_code, 0) << output.err;
+  expect_done(render({"-o", path("a.exr"), "--aov", "denoising", "--quiet"}));
+  const Output output =
+      expect_done(run_gatelight({"denoise", path("a.exr"), "-o", "-", "-o", path("b.png")}));
   EXPECT_EQ(output.out, read_file(path("b.png")));
 }
 
 TEST_F(StdoutPicture, TakesTheFlagsOfItsFormat) {
-  const Output output = render({"-o", "exr:-", "--aov", "albedo", "--exposure", "1"});
-  ASSERT_EQ(output.exit_code, 0) << output.err;
+  const Output output = expect_done(render({"-o", "exr:-", "--aov", "albedo", "--exposure", "1"}));
   EXPECT_THAT(output.err, HasSubstr("--exposure changes nothing"));
   const std::string file = folder.write("a.exr", output.out);
   EXPECT_NE(renderer::read_image(file).find("albedo"), nullptr);
@@ -107,8 +105,7 @@ TEST_F(StdoutPicture, ASnapshotLeavesItOut) {
     process.send(SIGUSR1);
     usleep(50000);
   }
-  const Output output = process.finish();
-  ASSERT_EQ(output.exit_code, 0) << output.err;
+  const Output output = expect_done(process.finish());
   EXPECT_THAT(output.err, HasSubstr("snapshot written"));
   EXPECT_EQ(output.out, read_file(path("a.png"))) << "one picture";
 }

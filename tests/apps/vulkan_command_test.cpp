@@ -45,8 +45,8 @@ class VulkanCommand : public FolderTest {
   }
 
   double flip(const std::string& a, const std::string& b) const {
-    const Output output = run_gatelight({"compare", path(a), path(b), "--metric", "flip", "--json", "-"});
-    EXPECT_EQ(output.exit_code, 0) << output.err;
+    const Output output =
+        expect_done(run_gatelight({"compare", path(a), path(b), "--metric", "flip", "--json", "-"}));
     return json::parse(output.out)["flip"]["mean"];
   }
 };
@@ -55,13 +55,11 @@ TEST_F(VulkanCommand, BothDevicesRenderTheSamePicture) {
   for (const Words& cache : {Words{"--integrator", "nrc"}, Words{"--integrator", "nao"},
                              Words{"--integrator", "nrc", "--encoding", "hashgrid"}}) {
     for (const char* device : {"cpu", "vulkan"}) {
-      Words words = {
-          "--size",        "64x48", "--spp",   "2",   "--device", device,
-          "--train-steps", "48",    "--batch", "512", "-o",       path(std::string(device) + ".exr")};
+      Words words = words_of("--size 64x48 --spp 2 --device {} --train-steps 48 --batch 512 -o {}",
+                             {device, path(std::string(device) + ".exr")});
       words.insert(words.end(), {"--exr", "float"});  // half precision would round the difference away
       words.insert(words.end(), cache.begin(), cache.end());
-      const Output output = render(words);
-      ASSERT_EQ(output.exit_code, 0) << output.err;
+      expect_done(render(words));
     }
     const double difference = flip("cpu.exr", "vulkan.exr");
     EXPECT_GT(difference, 0.0);
@@ -80,8 +78,7 @@ TEST_F(VulkanCommand, ACacheOfOneDeviceAnswersOnTheOther) {
     ask.insert(ask.end(), {"--train-steps", "0", "--device", queried, "--cache-in", path("c.safetensors"),
                            "-o", path("queried.exr")});
     for (const Words& words : {learn, own, ask}) {
-      const Output output = render(words);
-      ASSERT_EQ(output.exit_code, 0) << output.err;
+      expect_done(render(words));
     }
     EXPECT_LT(flip("own.exr", "queried.exr"), 1e-4);
   }
@@ -89,9 +86,8 @@ TEST_F(VulkanCommand, ACacheOfOneDeviceAnswersOnTheOther) {
 
 TEST_F(VulkanCommand, StatisticsNameTheDevice) {
   const Output output =
-      render({"--integrator", "nrc", "--size", "24x16", "--spp", "1", "--train-steps", "4", "--batch", "256",
-              "--device", "vulkan:0", "-o", path("a.exr"), "--stats", "-"});
-  ASSERT_EQ(output.exit_code, 0) << output.err;
+      expect_done(render({"--integrator", "nrc", "--size", "24x16", "--spp", "1", "--train-steps", "4",
+                          "--batch", "256", "--device", "vulkan:0", "-o", path("a.exr"), "--stats", "-"}));
   const json stats = json::parse(output.out);
   EXPECT_EQ(stats["device"], "vulkan:0");
   EXPECT_EQ(stats["cache"]["backend"], "vulkan " + std::string(devices()["devices"][0]["name"]));
@@ -99,9 +95,9 @@ TEST_F(VulkanCommand, StatisticsNameTheDevice) {
 
 // The device is lost after 4 submissions, in training, or after 40, while the cache answers.
 TEST_F(VulkanCommand, ALostDeviceIsCode5AndKeepsThePictureSoFar) {
-  const Words words = {"--integrator", "nrc",           "--size", "24x16",      "--spp",
-                       "64",           "--train-steps", "8",      "--batch",    "256",
-                       "--device",     "vulkan",        "-o",     path("a.exr")};
+  const Words words =
+      words_of("--integrator nrc --size 24x16 --spp 64 --train-steps 8 --batch 256 --device vulkan -o {}",
+               {path("a.exr")});
   for (const auto& [after, picture] : {std::pair{"4", false}, {"40", true}}) {
     setenv("GATELIGHT_VULKAN_LOSE_AFTER", after, 1);
     const Output output = render(words);
@@ -139,10 +135,9 @@ TEST_F(VulkanCommand, ACheckpointOutlivesALostDevice) {
     unsetenv("GATELIGHT_VULKAN_LOSE_AFTER");
     EXPECT_EQ(lost.exit_code, 5);
     ASSERT_TRUE(std::filesystem::exists(path("checkpoint"))) << "after " << after;
-    const Output resumed = render(words("resumed.exr"));
-    EXPECT_EQ(resumed.exit_code, 0) << resumed.err;
+    const Output resumed = expect_done(render(words("resumed.exr")));
     std::filesystem::remove(path("checkpoint"));
-    EXPECT_EQ(render(words("whole.exr")).exit_code, 0);
+    expect_done(render(words("whole.exr")));
     std::filesystem::remove(path("checkpoint"));
     EXPECT_EQ(flip("whole.exr", "resumed.exr"), 0.0) << "after " << after;
   }
@@ -159,8 +154,7 @@ TEST(VulkanRefusals, AMissingDeviceIsCode5AndTheErrorNamesThoseThatExist) {
 
 TEST(VulkanInfo, ListsDevicesOrSaysWhyThereAreNone) {
   const json& description = devices();
-  const Output output = run_gatelight({"info"});
-  EXPECT_EQ(output.exit_code, 0);
+  const Output output = expect_done(run_gatelight({"info"}));
   if (description["devices"].empty()) {
     EXPECT_THAT(output.out, HasSubstr(std::string(description["reason"])));
     return;

@@ -16,7 +16,6 @@
 namespace gatelight::tests {
 namespace {
 
-
 class FaultyDisk : public Faults {};
 
 const std::vector<std::string> kKinds = {"a.exr", "a.png", "stats.json", "checkpoint", "cache"};
@@ -136,8 +135,7 @@ TEST_F(FaultyDisk, AnUnwritableStderrIsIgnoredAndAnUnwritableStdoutIsCode3) {
       words({"-o", path("a.exr"), "--size", "16x16", "--spp", "2", "--progress", "json", "--verbose"});
   const auto with_error_at = [&](const std::function<int()>& open) {
     std::filesystem::remove(path("a.exr"));
-    const Output output = run_gatelight(all, [&] { ::dup2(open(), STDERR_FILENO); });
-    EXPECT_EQ(output.exit_code, 0);
+    expect_done(run_gatelight(all, [&] { ::dup2(open(), STDERR_FILENO); }));
     EXPECT_EQ(renderer::read_image(path("a.exr")).width, 16);
   };
   with_error_at([] { return ::open("/dev/full", O_WRONLY); });

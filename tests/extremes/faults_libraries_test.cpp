@@ -8,7 +8,6 @@
 namespace gatelight::tests {
 namespace {
 
-
 class Libraries : public Faults {
  protected:
   /// Runs a copy of the program without the files beside it.
@@ -42,8 +41,7 @@ TEST_F(Libraries, MissingLibrariesAreReportedBeforeWorkThatRequiresThem) {
   EXPECT_FALSE(std::filesystem::exists(folder / "a.exr"));
   // Renders that do not need the library work.
   const std::string picture = path("a.png");
-  const Output output = run_alone(words({"-o", picture, "--spp", "1", "--size", "16x16", "--quiet"}));
-  EXPECT_EQ(output.exit_code, 0) << output.err;
+  expect_done(run_alone(words({"-o", picture, "--spp", "1", "--size", "16x16", "--quiet"})));
   EXPECT_TRUE(std::filesystem::exists(picture));
 }
 

@@ -64,8 +64,7 @@ TEST_F(CommaLocale, ChangesNoNumberInAnyFile) {
                                     path(name + ".png"), std::string("--stats"), path(name + ".json"),
                                     std::string("--cache-out"), path(name + ".safetensors")})
       all.push_back(word);
-    const Output output = run_gatelight_inside(all);
-    EXPECT_EQ(output.exit_code, 0) << output.err;
+    expect_done(run_gatelight_inside(all));
     const Output compared = run_gatelight_inside(
         {"compare", path(name + ".exr"), path(name + ".png"), "--json", path(name + ".compare.json")});
     const Output reported = run_gatelight_inside({"info", scene, "--json", path(name + ".info.json")});

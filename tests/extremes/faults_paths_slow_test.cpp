@@ -9,7 +9,6 @@
 namespace gatelight::tests {
 namespace {
 
-
 class Names : public Faults {};
 
 std::string encoded(const std::string& name) {
@@ -57,10 +56,8 @@ const std::vector<std::string> kNames = {
 
 TEST_F(Names, EveryFileNameWorksForEveryInputAndOutput) {
   // A picture for textures and the environment.
-  ASSERT_EQ(run_gatelight(
-                words({"-o", path("t.png"), "-o", path("t.exr"), "--size", "16x8", "--spp", "1", "--quiet"}))
-                .exit_code,
-            0);
+  expect_done(run_gatelight(
+      words({"-o", path("t.png"), "-o", path("t.exr"), "--size", "16x8", "--spp", "1", "--quiet"})));
   std::string first;
   for (const std::string& name : kNames) {
     const std::filesystem::path home = folder / name;
@@ -73,25 +70,10 @@ TEST_F(Names, EveryFileNameWorksForEveryInputAndOutput) {
     std::filesystem::copy_file(folder / "t.exr", file(".exr"));
     folder.write(name + "/" + name + ".toml", "spp = 2\n");
     const auto run = [&](const std::vector<std::string>& more) {
-      std::vector<std::string> all = {"render",
-                                      file(".gltf"),
-                                      "--environment",
-                                      file(".exr"),
-                                      "--config",
-                                      file(".toml"),
-                                      "--size",
-                                      "16x16",
-                                      "--integrator",
-                                      "nrc",
-                                      "--train-steps",
-                                      "4",
-                                      "--batch",
-                                      "256",
-                                      "--quiet",
-                                      "--threads",
-                                      "2"};
-      all.insert(all.end(), more.begin(), more.end());
-      return run_gatelight(all);
+      return run_gatelight(
+          words_of("render {} --environment {} --config {} --size 16x16 --integrator nrc --train-steps 4 "
+                   "--batch 256 --quiet --threads 2",
+                   {file(".gltf"), file(".exr"), file(".toml")}, more));
     };
     const Output output = run({"-o", file(".out.exr"), "-o", file(".out.png"), "--stats", file(".json"),
                                "--cache-out", file(".cache"), "--checkpoint", file(".checkpoint")});
@@ -147,15 +129,14 @@ TEST_F(Names, FilesWithTheLongestNamesCanBeReplaced) {
   };
   std::string first;
   for (int time = 0; time < 2; ++time) {
-    const Output output =
-        run({"-o", named('b', ".png"), "--stats", named('c', ".json"), "--cache-out", named('d', ".cache")});
-    ASSERT_EQ(output.exit_code, 0) << output.err;
+    expect_done(
+        run({"-o", named('b', ".png"), "--stats", named('c', ".json"), "--cache-out", named('d', ".cache")}));
     EXPECT_EQ(folder.count_files(), 6u) << "the scene and five files, nothing temporary";
     const std::string bytes = read_file(named('d', ".cache"));
     EXPECT_EQ(first.empty() || bytes == first, true);
     first = bytes;
   }
-  EXPECT_EQ(run({"--resume"}).exit_code, 0);
+  expect_done(run({"--resume"}));
   expect_failure(run_gatelight(words({"-o", named('a', ".exr", 256), "--quiet"})), 3,
                  {named('a', ".exr", 256)});
 }
@@ -166,14 +147,12 @@ TEST_F(Names, EachUnreadableTextureIsReportedOnce) {
   folder.write("missing.gltf", with_texture("nowhere.png", "a.bin"));
   folder.write("broken.gltf", with_texture("broken.png", "a.bin"));
   for (const char* file : {"missing.gltf", "broken.gltf"}) {
-    const std::vector<std::string> all = {"render",        path(file), "-o",     path("a.exr"),
-                                          "--environment", "1,1,1",    "--size", "16x16",
-                                          "--spp",         "1",        "--quiet"};
+    const std::vector<std::string> all = words_of(
+        "render {} -o {} --environment 1,1,1 --size 16x16 --spp 1 --quiet", {path(file), path("a.exr")});
     expect_failure(run_gatelight(all), 2, {path(file), ".png"});
     std::vector<std::string> warned = all;
     warned.insert(warned.end(), {"--missing", "warn", "--stats", path("s.json")});
-    const Output output = run_gatelight(warned);
-    EXPECT_EQ(output.exit_code, 0) << output.err;
+    expect_done(run_gatelight(warned));
     const nlohmann::json stats = nlohmann::json::parse(read_file(path("s.json")));
     expect_messages(stats["warnings"], {{".png"}});
   }

@@ -8,7 +8,6 @@
 namespace gatelight::tests {
 namespace {
 
-
 class Stopped : public Faults {
  protected:
   std::vector<std::string> learning(const std::string& output, const std::vector<std::string>& more) const {
@@ -31,8 +30,8 @@ TEST_F(Stopped, TerminationDuringTrainingKeepsPictureAndCheckpoint) {
   expect_message(output.last_error_line(), {"3000", "--resume"});
   EXPECT_EQ(renderer::read_image(path("killed.exr")).width, 48);
   EXPECT_EQ(folder.count_files(), 3u) << "a temporary file is left";
-  EXPECT_EQ(run_gatelight(learning("killed.exr", keeps)).exit_code, 0);
-  EXPECT_EQ(run_gatelight(learning("straight.exr", {})).exit_code, 0);
+  expect_done(run_gatelight(learning("killed.exr", keeps)));
+  expect_done(run_gatelight(learning("straight.exr", {})));
   EXPECT_EQ(read_file(path("killed.exr")) == read_file(path("straight.exr")), true);
 }
 
@@ -47,14 +46,14 @@ TEST_F(Stopped, ResumingWithAnotherSceneIsRefused) {
     all.insert(all.end(), keeps.begin(), keeps.end());
     return run_gatelight(all);
   };
-  EXPECT_EQ(changed("\"asset\"", "\"asset\"").exit_code, 0);
+  expect_done(changed("\"asset\"", "\"asset\""));
   const std::string kept = read_file(path("c"));
   expect_failure(changed("[0.5, 0.5, 0.5, 1]", "[0.5, 0.25, 0.5, 1]"), 2, {"materials"});
   expect_failure(changed("AACAvwAAgL8", "AACAPwAAgL8"), 2, {"geometry"});
   expect_failure(changed("\"metallicFactor\": 0", "\"metallicFactor\": 1"), 2, {"materials"});
   expect_failure(changed("\"yfov\": 0.9", "\"yfov\": 0.8"), 2, {"camera"});
   EXPECT_EQ(read_file(path("c")) == kept, true);
-  EXPECT_EQ(changed("\"asset\"", "\"asset\"").exit_code, 0);
+  expect_done(changed("\"asset\"", "\"asset\""));
 }
 
 }  // namespace

@@ -134,6 +134,12 @@ Output run_gatelight(const std::vector<std::string>& arguments, const std::funct
   return Process(arguments, prepare).finish();
 }
 
+Output expect_done(Output output, Place place) {
+  const ::testing::ScopedTrace trace(place.file, place.line, "stderr: " + output.err);
+  EXPECT_EQ(output.exit_code, 0);
+  return output;
+}
+
 void expect_failure(const Output& output, int exit_code, const NameList& names, Place place) {
   const ::testing::ScopedTrace trace(place.file, place.line, "stderr: " + output.err);
   EXPECT_EQ(output.exit_code, exit_code);

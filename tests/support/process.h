@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "tests/support/messages.h"
+#include "tests/support/words.h"
 
 namespace gatelight::tests {
 
@@ -54,6 +55,9 @@ class Process {
 Output run_gatelight_inside(const std::vector<std::string>& arguments);
 
 Output run_gatelight(const std::vector<std::string>& arguments, const std::function<void()>& prepare = {});
+
+/// Expects exit code 0.
+Output expect_done(Output output, Place place = Place::current());
 
 /// Expects that it ended by itself with this code, and that stderr is one line, an error that has all the
 /// names in it.

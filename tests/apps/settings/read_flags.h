@@ -4,7 +4,6 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <set>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -14,18 +13,12 @@
 #include "apps/settings/option_table.h"
 #include "apps/terminal/errors.h"
 #include "tests/support/messages.h"
+#include "tests/support/words.h"
 
 namespace gatelight::apps {
 
-using Words = std::vector<std::string>;
-
-/// The words of a command line without quotes.
-inline Words words_of(const std::string& line) {
-  std::istringstream stream(line);
-  Words words;
-  for (std::string word; stream >> word;) words.push_back(word);
-  return words;
-}
+using tests::Words;
+using tests::words_of;
 
 /// Settings of `gatelight render room.glb -o a.exr WORDS`.
 inline RenderSettings read_flags(Words words) {

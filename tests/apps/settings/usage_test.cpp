@@ -36,8 +36,7 @@ class Usage : public FolderTest {
 };
 
 TEST_F(Usage, HelpFitsOnTwoScreens) {
-  const Output help = run_gatelight({"render", "--help"});
-  EXPECT_EQ(help.exit_code, 0);
+  const Output help = expect_done(run_gatelight({"render", "--help"}));
   std::istringstream text(help.out);
   int lines = 0;
   for (std::string line; std::getline(text, line); ++lines) EXPECT_LE(line.size(), 120u) << line;
@@ -57,8 +56,7 @@ TEST_F(Usage, EachFlagOfTheShortHelpExists) {
 }
 
 TEST_F(Usage, HelpOfATopicHasAllOfItsFlagsAndNoOthers) {
-  const Output cache = run_gatelight_inside({"render", "--help", "cache"});
-  EXPECT_EQ(cache.exit_code, 0);
+  const Output cache = expect_done(run_gatelight_inside({"render", "--help", "cache"}));
   for (const char* word : {"--train-steps", "--hash-levels", "--query-at", "--self-training-full"})
     EXPECT_THAT(cache.out, HasSubstr(word));
   for (const char* word : {"--spp", "--camera", "--isa", "Examples:"})
@@ -68,15 +66,13 @@ TEST_F(Usage, HelpOfATopicHasAllOfItsFlagsAndNoOthers) {
 }
 
 TEST_F(Usage, HelpGoesToStdoutAndNamesEveryFlagWithItsDefault) {
-  const Output root = run_gatelight({"--help"});
-  EXPECT_EQ(root.exit_code, 0);
+  const Output root = expect_done(run_gatelight({"--help"}));
   EXPECT_EQ(root.err, "");
   for (const char* word :
        {"render", "compare", "info", "merge", "sweep", "--config", "Exit codes", "Examples"}) {
     EXPECT_THAT(root.out, HasSubstr(word));
   }
-  const Output render = run_gatelight({"render", "--help-all"});
-  EXPECT_EQ(render.exit_code, 0);
+  const Output render = expect_done(run_gatelight({"render", "--help-all"}));
   EXPECT_THAT(render.out, StartsWith("Render a scene"));
   for (const char* word : {"Usage: gatelight render",
                            "--integrator path|ao|nao|nrc",
@@ -131,8 +127,7 @@ TEST_F(Usage, HelpGoesToStdoutAndNamesEveryFlagWithItsDefault) {
 }
 
 TEST_F(Usage, VersionNamesProgramAndDenoiserOnStdout) {
-  const Output output = run_gatelight({"--version"});
-  EXPECT_EQ(output.exit_code, 0);
+  const Output output = expect_done(run_gatelight({"--version"}));
   EXPECT_THAT(output.out,
               ::testing::MatchesRegex("gatelight [0-9]+[.][0-9]+[.][0-9]+[^\n]*\ndenoiser: [^\n]*\n"));
 }
@@ -327,8 +322,8 @@ TEST_F(Usage, AConfigFileSetsFlagsAndTheCommandLineWins) {
                    "# a comment\nspp = 2\nsize = \"16x8\"\neye = [0.5, 1, 3]\ntarget = \"0,0,0\"\n"
                    "output = [\"" +
                        path("one.exr") + "\", \"" + path("two.png") + "\"]\nquiet = true\n");
-  const Output output = run_gatelight({"render", scene(), "--config", config, "--spp", "1", "--stats", "-"});
-  EXPECT_EQ(output.exit_code, 0) << output.err;
+  const Output output =
+      expect_done(run_gatelight({"render", scene(), "--config", config, "--spp", "1", "--stats", "-"}));
   EXPECT_EQ(output.err, "") << "quiet";
   EXPECT_THAT(output.out, HasSubstr("\"width\": 16"));
   EXPECT_THAT(output.out, HasSubstr("\"spp\": 1"));
@@ -342,7 +337,7 @@ TEST_F(Usage, InfoChecksTheFlagsOfTheCache) {
   const Output without = run_gatelight_inside({"info", scene(), "--batch", "8"});
   expect_failure(without, 1, {"--batch", "nao", "nrc"});
   EXPECT_EQ(without.out, "");
-  EXPECT_EQ(run_gatelight_inside({"info", scene(), "--camera", "front"}).exit_code, 0);
+  expect_done(run_gatelight_inside({"info", scene(), "--camera", "front"}));
 }
 
 TEST_F(Usage, AConfigFileIsCheckedLikeTheCommandLine) {

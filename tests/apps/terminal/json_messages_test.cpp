@@ -57,8 +57,8 @@ class JsonMessages : public FolderTest {
 };
 
 TEST_F(JsonMessages, ARunIsReportedWithItsSummary) {
-  const Output output = run_gatelight(words({"--progress", "json", "--verbose", "--environment", "1,1,1"}));
-  EXPECT_EQ(output.exit_code, 0) << output.err;
+  const Output output =
+      expect_done(run_gatelight(words({"--progress", "json", "--verbose", "--environment", "1,1,1"})));
   const std::vector<json> description = events(output);
   EXPECT_THAT(kinds(description), Contains("detail"));
   const json& done = description.back();

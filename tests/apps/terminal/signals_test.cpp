@@ -64,8 +64,7 @@ TEST_F(Signals, StatisticsOfResumedRunsAddUp) {
   const int spp = first["spp"].get<int>() + 4;
   std::replace(arguments.begin(), arguments.end(), std::string("16777216"), std::to_string(spp));
   std::replace(arguments.begin(), arguments.end(), std::string("json"), std::string("none"));
-  const Output resumed = run_gatelight(arguments);
-  ASSERT_EQ(resumed.exit_code, 0) << resumed.err;
+  const Output resumed = expect_done(run_gatelight(arguments));
   const nlohmann::json both = nlohmann::json::parse(read_file(path("s.json")));
   EXPECT_EQ(both["spp"], spp);
   EXPECT_EQ(both["samples"], 64 * 64 * spp);

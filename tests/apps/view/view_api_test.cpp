@@ -7,6 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
+#include "tests/support/words.h"
+
 namespace gatelight::apps {
 namespace {
 
@@ -122,38 +124,11 @@ TEST_F(Api, SurvivesAnyRequest) {
   const int count = wanted != nullptr ? std::atoi(wanted) : 3000;
   std::mt19937 random(7);
   const auto below = [&](std::size_t n) { return static_cast<std::size_t>(random() % n); };
-  const std::vector<std::string> parts = {"api/",
-                                          "change",
-                                          "picture",
-                                          "status",
-                                          "pixel",
-                                          "save",
-                                          "scene",
-                                          "{",
-                                          "}",
-                                          "\"flags\"",
-                                          ":",
-                                          "\"eye\"",
-                                          "\"1,2,3\"",
-                                          "\"lights\"",
-                                          "null",
-                                          "\"size\"",
-                                          "\"99999x1\"",
-                                          "\"layer\"",
-                                          "1e400",
-                                          "nan",
-                                          "-",
-                                          "[[[[[[",
-                                          "exposure",
-                                          "\"spp\"",
-                                          ",",
-                                          "\"0\"",
-                                          std::string(300, '9'),
-                                          std::string("\0", 1),
-                                          "\xf0\x9f",
-                                          "%00",
-                                          "..",
-                                          "/"};
+  const std::vector<std::string> parts = tests::words_of(
+      "api/ change picture status pixel save scene {} {} {} : {} {} {} null {} {} {} 1e400 nan - [[[[[[ "
+      "exposure {} , {} {} {} {} %00 .. /",
+      {"{", "}", "\"flags\"", "\"eye\"", "\"1,2,3\"", "\"lights\"", "\"size\"", "\"99999x1\"", "\"layer\"",
+       "\"spp\"", "\"0\"", std::string(300, '9'), std::string("\0", 1), "\xf0\x9f"});
   const auto mixed = [&] {
     std::string text;
     for (std::size_t i = below(9); i > 0; --i)
