@@ -42,13 +42,11 @@ class Film : public FolderTest {
 };
 
 TEST_F(Film, HasTheSameFilesInAnyRange) {
-  const auto run = [&](const std::string& name, std::vector<std::string> more) {
-    const std::vector<std::string> words = words_of(
-        "--preset preview --integrator path --temporal off --spp 2 --size 32x18 --aov motion,motion-next "
-        "--exr float --reproducible -o {} -o {}",
-        {path(name + "-%d.exr"), path(name + "-%d.png")});
-    more.insert(more.end(), words.begin(), words.end());
-    return render(kMovingRoom, more);
+  const auto run = [&](const std::string& name, const Words& more) {
+    return render(kMovingRoom,
+                  words_of("--preset preview --integrator path --temporal off --spp 2 --size 32x18 --aov "
+                           "motion,motion-next --exr float --reproducible -o {} -o {}",
+                           {path(name + "-%d.exr"), path(name + "-%d.png")}, more));
   };
   const Output whole = run("all", {"--frames", "4:7", "--threads", "1"});
   EXPECT_NE(whole.err.find("exposure "), std::string::npos) << whole.err;
@@ -64,18 +62,14 @@ TEST_F(Film, HasTheSameFilesInAnyRange) {
 }
 
 TEST_F(Film, OfWhichAPartIsRenderedSaysWhatDiffers) {
-  const auto part = [&](std::vector<std::string> more) {
-    const std::vector<std::string> words = {"--size", "16x9", "--spp", "1", "-o", path("f-%d.exr")};
-    more.insert(more.end(), words.begin(), words.end());
-    const std::string text = render(kMovingRoom, more).err;
+  const auto part = [&](const Words& more) {
+    const std::string text =
+        render(kMovingRoom, words_of("--size 16x9 --spp 1 -o {}", {path("f-%d.exr")}, more)).err;
     const std::size_t at = text.find("part ");
     return at == std::string::npos ? "" : text.substr(at, text.find('\n', at) - at);
   };
-  const std::vector<std::string> cached = {"--preset",      "standard", "--integrator", "nrc",
-                                           "--train-steps", "16",       "--denoiser",   "none"};
-  const auto with = [&](std::vector<std::string> more) {
-    more.insert(more.begin(), cached.begin(), cached.end());
-    return more;
+  const auto with = [&](const Words& more) {
+    return words_of("--preset standard --integrator nrc --train-steps 16 --denoiser none", {}, more);
   };
   expect_message(part(with({"--frames", "0:1"})), {"frames 0 to 48", "a kept cache", "--integrator path"});
   expect_message(part({"--frames", "3", "--denoiser", "auto"}), {"carried light", "--temporal off"});
@@ -125,11 +119,9 @@ class FadingFilm : public Film {
               {file.seconds({0, 0.25f}), file.scalars({first, last})});
     return file.write(folder).string();
   }
-  float exposure(const std::string& scene, std::vector<std::string> more) const {
-    const std::vector<std::string> words = words_of(
-        "--exposure auto --spp 1 --environment none -o {} --stats {}", {path("f-%d.png"), path("f-%d.json")});
-    more.insert(more.end(), words.begin(), words.end());
-    render(scene, more);
+  float exposure(const std::string& scene, const Words& more) const {
+    render(scene, words_of("--exposure auto --spp 1 --environment none -o {} --stats {}",
+                           {path("f-%d.png"), path("f-%d.json")}, more));
     return exposure_of("f-6.json");
   }
 };

@@ -17,12 +17,10 @@ namespace {
 class Frames : public FolderTest {
  protected:
   /// The cache learns, and the denoiser carries light where it is installed.
-  Output render(const std::vector<std::string>& flags, const std::string& scene = "moving-room") const {
-    std::vector<std::string> words = words_of(
+  Output render(const Words& flags, const std::string& scene = "moving-room") const {
+    return run_gatelight(words_of(
         "render {} --size 40x24 --spp 2 --preset standard --integrator nrc --reproducible --exr float",
-        {GATELIGHT_SOURCE_DIR "/data/" + scene + ".glb"}, steps_);
-    words.insert(words.end(), flags.begin(), flags.end());
-    return run_gatelight(words);
+        {GATELIGHT_SOURCE_DIR "/data/" + scene + ".glb"}, words_of(steps_, {}, flags)));
   }
 
   /// Frame 2 of a run, alone after the cache of the frame before, and after a resume. Returns what the run of
@@ -30,7 +28,7 @@ class Frames : public FolderTest {
   std::string go_on() const {
     const Output all = expect_done(
         render({"--frames", "0:2", "--fps", "6", "-o", path("a-%d.exr"), "--cache-out", path("cache-%d")}));
-    const Output one = expect_done(
+    expect_done(
         render({"--frames", "2:2", "--fps", "6", "-o", path("b.exr"), "--cache-in", path("cache-1")}));
     EXPECT_EQ(colors_of("a-2.exr"), colors_of("b.exr")) << "the headers differ: one names the cache";
     expect_done(render({"--frames", "0:2", "--fps", "6", "-o", path("c-%d.exr"), "--checkpoint",
@@ -48,16 +46,13 @@ class Frames : public FolderTest {
     EXPECT_TRUE(read_file(path(a)) == read_file(path(b))) << a << " and " << b;
   }
 
-  std::vector<std::string> steps_ = {"--train-steps", "40"};
+  std::string steps_ = "--train-steps 40";
 };
 
 TEST_F(Frames, AreTheSameForAnyThreadsAndAfterAResume) {
   expect_done(render({"--frames", "0:3", "--fps", "6", "-o", path("a-%d.exr"), "--threads", "2"}));
-  const std::vector<std::string> one = {"-o", path("b-%d.exr"), "--threads",  "1", "--fps",
-                                        "6",  "--checkpoint",   path("state")};
-  const auto with = [&](std::vector<std::string> flags) {
-    flags.insert(flags.end(), one.begin(), one.end());
-    return flags;
+  const auto with = [&](const Words& flags) {
+    return words_of("-o {} --threads 1 --fps 6 --checkpoint {}", {path("b-%d.exr"), path("state")}, flags);
   };
   // The first run makes only two of the frames. They are scouted with all that it makes, so all four are
   // named.
@@ -82,7 +77,6 @@ TEST_F(Frames, GoOnWithStepsThatAreChosen) {
 }
 
 TEST_F(Frames, WithoutACacheResumeToo) {
-  const std::vector<std::string> paths = {"--integrator", "path"};
   const auto run = [&](const std::string& output, const std::vector<std::string>& more) {
     return run_gatelight(
         words_of("render {} --size 40x24 --spp 2 --denoiser auto --fps 6 --reproducible --exr float -o {}",
@@ -110,11 +104,9 @@ TEST_F(Frames, AFailureOfOneDoesNotLoseTheOthers) {
 }
 
 TEST_F(Frames, AreShownWithOneExposure) {
-  const std::vector<std::string> words = {
-      "render", GATELIGHT_SOURCE_DIR "/data/moving-room.glb", "--size", "40x24", "--spp", "2", "--fps", "6"};
-  const auto run = [&](std::vector<std::string> more) {
-    more.insert(more.begin(), words.begin(), words.end());
-    return run_gatelight(more);
+  const auto run = [&](const Words& more) {
+    return run_gatelight(words_of("render {} --size 40x24 --spp 2 --fps 6",
+                                  {GATELIGHT_SOURCE_DIR "/data/moving-room.glb"}, more));
   };
   expect_done(run({"--frames", "0:1", "--exposure", "auto", "-o", path("a-%d.png"), "--stats",
                    path("a-%d.json"), "--checkpoint", path("state")}));
@@ -132,12 +124,10 @@ TEST_F(Frames, AreShownWithOneExposure) {
 }
 
 TEST_F(Frames, ThatAreThereStayAsTheyAre) {
-  const auto run = [&](std::vector<std::string> more) {
-    const std::vector<std::string> words =
-        words_of("render {} --size 40x24 --spp 1 --reproducible -o {} -o {}",
-                 {GATELIGHT_SOURCE_DIR "/data/moving-room.glb", path("shot_%02d/f.exr"), path("f-%d.png")});
-    more.insert(more.begin(), words.begin(), words.end());
-    return run_gatelight(more);
+  const auto run = [&](const Words& more) {
+    return run_gatelight(words_of(
+        "render {} --size 40x24 --spp 1 --reproducible -o {} -o {}",
+        {GATELIGHT_SOURCE_DIR "/data/moving-room.glb", path("shot_%02d/f.exr"), path("f-%d.png")}, more));
   };
   expect_done(run({"--frames", "1,3-4"}));
   const std::string third = read_file(path("shot_03/f.exr"));

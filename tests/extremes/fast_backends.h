@@ -53,8 +53,7 @@ inline bool all_finite(std::span<const float> values) {
 /// Expects no NaN and no infinity in state and answers, and no negative second moment.
 inline void expect_sound(const Backend& backend, const Model& model, const OwnedBatch& batch) {
   const ModelState state = backend.export_state();
-  for (const auto* values :
-       {&state.parameters, &state.averages, &state.first_moments, &state.second_moments})
+  for (const auto* values : {&state.parameters, &state.averages, &state.first_moments, &state.second_moments})
     EXPECT_TRUE(all_finite(*values)) << backend.name();
   EXPECT_GE(*std::min_element(state.second_moments.begin(), state.second_moments.end()), 0.0f);
   for (const QueryPrecision precision : {QueryPrecision::fp32, QueryPrecision::bf16})

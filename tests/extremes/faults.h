@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include <string>
-#include <vector>
 
 #include "tests/support/folder_test.h"
 #include "tests/support/process.h"
@@ -15,11 +14,9 @@ namespace gatelight::tests {
 
 class Faults : public FolderTest {
  protected:
-  /// A square under a white sky.
-  std::vector<std::string> words(const std::vector<std::string>& more) const {
-    std::vector<std::string> all = {"render", scene, "--environment", "1,1,1", "--threads", "2"};
-    all.insert(all.end(), more.begin(), more.end());
-    return all;
+  /// A render of a square under a white sky.
+  Words square(const std::string& line, const Words& values = {}, const Words& more = {}) const {
+    return words_of("render {} --environment 1,1,1 --threads 2", {scene}, words_of(line, values, more));
   }
 
   std::string scene = folder.write("scene.gltf", tiny_scene());

@@ -18,15 +18,27 @@ namespace {
 
 class FaultyDisk : public Faults {};
 
-const std::vector<std::string> kKinds = {"a.exr", "a.png", "stats.json", "checkpoint", "cache"};
+const Words kKinds = {"a.exr", "a.png", "stats.json", "checkpoint", "cache"};
 
 /// Arguments of a render whose output of one kind is at `place`, with a picture at `other`.
-std::vector<std::string> outputs(const std::string& kind, const std::string& place,
-                                 const std::string& other) {
+Words outputs(const std::string& kind, const std::string& place, const std::string& other) {
   if (kind == "a.exr" || kind == "a.png") return {"-o", place, "-o", other};
   if (kind == "stats.json") return {"-o", other, "--stats", place};
   if (kind == "checkpoint") return {"-o", other, "--checkpoint", place, "--checkpoint-every", "0"};
-  return {"-o", other, "--integrator", "nrc", "--train-steps", "8", "--batch", "512", "--cache-out", place};
+  return words_of("-o {} --integrator nrc --train-steps 8 --batch 512 --cache-out {}", {other, place});
+}
+
+/// Root writes everywhere by a capability, which a program loses that is run without it.
+void drop_capability() {
+  ::prctl(PR_CAPBSET_DROP, CAP_DAC_OVERRIDE, 0, 0, 0);
+}
+
+/// The writing end of a pipe without a reader.
+int broken_pipe() {
+  int ends[2];
+  if (::pipe(ends) != 0) ::_exit(126);
+  ::close(ends[0]);
+  return ends[1];
 }
 
 TEST_F(FaultyDisk, AFullDiskKeepsTheOldFileAndLeavesNoTemporaryFile) {
@@ -42,10 +54,8 @@ TEST_F(FaultyDisk, AFullDiskKeepsTheOldFileAndLeavesNoTemporaryFile) {
     const std::string place = disk + "/" + kind;
     std::ofstream(place) << "old";
     const std::string other = path("other.exr");
-    std::vector<std::string> all = words({"--size", "64x64", "--spp", "2", "--quiet"});
-    const std::vector<std::string> more = outputs(kind, place, other);
-    all.insert(all.end(), more.begin(), more.end());
-    const Output output = run_gatelight(all);
+    const Output output =
+        run_gatelight(square("--size 64x64 --spp 2 --quiet", {}, outputs(kind, place, other)));
     EXPECT_EQ(output.exit_code, 3) << kind << output.err;
     EXPECT_FALSE(output.killed) << kind;
     expect_message(output.last_error_line(), {place});
@@ -63,12 +73,10 @@ TEST_F(FaultyDisk, AFullDiskKeepsTheOldFileAndLeavesNoTemporaryFile) {
 TEST_F(FaultyDisk, AFileSizeLimitActsLikeAFullDisk) {
   for (const std::string& kind : kKinds) {
     folder.write("disk/" + kind, "old");
-    std::vector<std::string> all = words({"--size", "64x64", "--spp", "2", "--quiet"});
     // Statistics and the picture beside a checkpoint are smaller than both limits.
     const rlim_t bytes = kind == "checkpoint" || kind == "cache" ? 40000 : 1000;
-    const std::vector<std::string> more = outputs(kind, path("disk/" + kind), path("other.exr"));
-    all.insert(all.end(), more.begin(), more.end());
-    const Output output = run_gatelight(all, [&] {
+    const Words words = outputs(kind, path("disk/" + kind), path("other.exr"));
+    const Output output = run_gatelight(square("--size 64x64 --spp 2 --quiet", {}, words), [&] {
       const rlimit limit{bytes, bytes};
       ::setrlimit(RLIMIT_FSIZE, &limit);
     });
@@ -85,40 +93,32 @@ TEST_F(FaultyDisk, AFileSizeLimitActsLikeAFullDisk) {
   EXPECT_EQ(folder.count_files(), 2u) << "a temporary file is left";
 }
 
-TEST_F(FaultyDisk, AReadOnlyFolderIsRefusedBeforeTheWork) {
+TEST_F(FaultyDisk, AReadOnlyFolderOrFileIsRefusedBeforeTheWork) {
   const std::filesystem::path locked = folder / "locked";
   std::filesystem::create_directory(locked);
   std::filesystem::permissions(locked, std::filesystem::perms(0555));
   for (const std::string& kind : kKinds) {
-    std::vector<std::string> all = words({"--size", "4096x4096", "--spp", "65536", "--quiet"});
-    const std::vector<std::string> more = outputs(kind, (locked / kind).string(), path("other.exr"));
-    all.insert(all.end(), more.begin(), more.end());
-    // Root writes everywhere by a capability, which a program loses that is run without it.
-    const Output output = run_gatelight(all, [] { ::prctl(PR_CAPBSET_DROP, CAP_DAC_OVERRIDE, 0, 0, 0); });
-    expect_failure(output, 3, {locked.string()});
-  }
-  std::filesystem::permissions(locked, std::filesystem::perms(0755));
-  expect_failure(run_gatelight(words({"-o", scene + "/a.exr", "--quiet"})), 3, {scene});
-}
-
-TEST_F(FaultyDisk, AReadOnlyFileIsRefusedBeforeTheWork) {
-  for (const std::string& kind : kKinds) {
+    const auto refused = [&](const std::string& place) {
+      return run_gatelight(
+          square("--size 4096x4096 --spp 65536 --quiet", {}, outputs(kind, place, path("other.exr"))),
+          drop_capability);
+    };
+    expect_failure(refused((locked / kind).string()), 3, {locked.string()});
     const std::string kept = folder.write(kind, "a reference of last year");
     std::filesystem::permissions(kept, std::filesystem::perms(0444));
-    std::vector<std::string> all = words({"--size", "4096x4096", "--spp", "65536", "--quiet"});
-    const std::vector<std::string> more = outputs(kind, kept, path("other.exr"));
-    all.insert(all.end(), more.begin(), more.end());
-    const Output output = run_gatelight(all, [] { ::prctl(PR_CAPBSET_DROP, CAP_DAC_OVERRIDE, 0, 0, 0); });
-    expect_failure(output, 3, {kept});
-    EXPECT_EQ(tests::read_file(kept), "a reference of last year");
+    expect_failure(refused(kept), 3, {kept});
+    EXPECT_EQ(read_file(kept), "a reference of last year");
   }
+  std::filesystem::permissions(locked, std::filesystem::perms(0755));
+  expect_failure(run_gatelight(square("-o {} --quiet", {scene + "/a.exr"})), 3, {scene});
 }
 
 TEST_F(FaultyDisk, ARemovedFolderLosesOnlyItsOwnOutputs) {
   std::filesystem::create_directory(folder / "gone");
   Process process(
-      words({"-o", path("gone/a.exr"), "-o", path("stays.exr"), "--checkpoint", path("gone/c"),
-             "--checkpoint-every", "0", "--size", "64x64", "--spp", "16777216", "--progress", "json"}));
+      square("-o {} -o {} --checkpoint {} --checkpoint-every 0 --size 64x64 --spp 16777216 "
+             "--progress json",
+             {path("gone/a.exr"), path("stays.exr"), path("gone/c")}));
   ASSERT_TRUE(process.wait_for_error_text("\"progress\""));
   std::filesystem::remove_all(folder / "gone");
   ASSERT_TRUE(process.wait_for_error_text("it will be tried again"));
@@ -131,32 +131,16 @@ TEST_F(FaultyDisk, ARemovedFolderLosesOnlyItsOwnOutputs) {
 }
 
 TEST_F(FaultyDisk, AnUnwritableStderrIsIgnoredAndAnUnwritableStdoutIsCode3) {
-  const std::vector<std::string> all =
-      words({"-o", path("a.exr"), "--size", "16x16", "--spp", "2", "--progress", "json", "--verbose"});
-  const auto with_error_at = [&](const std::function<int()>& open) {
+  const auto full = [] { return ::open("/dev/full", O_WRONLY); };
+  for (const std::function<int()>& open : {std::function<int()>(full), std::function<int()>(broken_pipe)}) {
     std::filesystem::remove(path("a.exr"));
-    expect_done(run_gatelight(all, [&] { ::dup2(open(), STDERR_FILENO); }));
+    expect_done(run_gatelight(square("-o {} --size 16x16 --spp 2 --progress json --verbose", {path("a.exr")}),
+                              [&] { ::dup2(open(), STDERR_FILENO); }));
     EXPECT_EQ(renderer::read_image(path("a.exr")).width, 16);
-  };
-  with_error_at([] { return ::open("/dev/full", O_WRONLY); });
-  with_error_at([] {
-    int ends[2];
-    if (::pipe(ends) != 0) ::_exit(126);
-    ::close(ends[0]);
-    return ends[1];
-  });
-  std::vector<std::string> with_stats =
-      words({"-o", path("a.exr"), "--size", "16x16", "--spp", "2", "--quiet"});
-  with_stats.insert(with_stats.end(), {"--stats", "-"});
-  const Output full = run_gatelight(with_stats, [] { ::dup2(::open("/dev/full", O_WRONLY), STDOUT_FILENO); });
-  expect_failure(full, 3, {"stdout"});
-  const Output closed = run_gatelight(with_stats, [] {
-    int ends[2];
-    if (::pipe(ends) != 0) ::_exit(126);
-    ::close(ends[0]);
-    ::dup2(ends[1], STDOUT_FILENO);
-  });
-  expect_failure(closed, 3, {"stdout"});
+    expect_failure(run_gatelight(square("-o {} --size 16x16 --spp 2 --quiet --stats -", {path("a.exr")}),
+                                 [&] { ::dup2(open(), STDOUT_FILENO); }),
+                   3, {"stdout"});
+  }
 }
 
 }  // namespace

@@ -41,7 +41,7 @@ TEST_F(Libraries, MissingLibrariesAreReportedBeforeWorkThatRequiresThem) {
   EXPECT_FALSE(std::filesystem::exists(folder / "a.exr"));
   // Renders that do not need the library work.
   const std::string picture = path("a.png");
-  expect_done(run_alone(words({"-o", picture, "--spp", "1", "--size", "16x16", "--quiet"})));
+  expect_done(run_alone(square("-o {} --spp 1 --size 16x16 --quiet", {picture})));
   EXPECT_TRUE(std::filesystem::exists(picture));
 }
 

@@ -57,14 +57,11 @@ TEST_F(CommaLocale, ChangesNoNumberInAnyFile) {
   // Both under the same names: some are part of the recipe.
   const std::string name = "a";
   const auto run = [&] {
-    std::vector<std::string> all = words({"--config", path("flags.toml"), "--quiet", "--reproducible",
-                                          "--size", "32x32", "--learning-rate", "0.0078125", "--integrator",
-                                          "nrc", "--train-steps", "8", "--batch", "512"});
-    for (const std::string& word : {std::string("-o"), path(name + ".exr"), std::string("-o"),
-                                    path(name + ".png"), std::string("--stats"), path(name + ".json"),
-                                    std::string("--cache-out"), path(name + ".safetensors")})
-      all.push_back(word);
-    expect_done(run_gatelight_inside(all));
+    expect_done(run_gatelight_inside(
+        square("--config {} --quiet --reproducible --size 32x32 --learning-rate 0.0078125 --integrator nrc "
+               "--train-steps 8 --batch 512 -o {} -o {} --stats {} --cache-out {}",
+               {path("flags.toml"), path(name + ".exr"), path(name + ".png"), path(name + ".json"),
+                path(name + ".safetensors")})));
     const Output compared = run_gatelight_inside(
         {"compare", path(name + ".exr"), path(name + ".png"), "--json", path(name + ".compare.json")});
     const Output reported = run_gatelight_inside({"info", scene, "--json", path(name + ".info.json")});
@@ -91,14 +88,13 @@ TEST_F(CommaLocale, ChangesNoNumberInAnyFile) {
 }
 
 TEST_F(CommaLocale, TheLocaleOfTheEnvironmentIsIgnored) {
-  const std::vector<std::string> all = words(
-      {"-o", path("a.exr"), "--size", "16x16", "--spp", "2", "--clamp", "1.5", "--quiet", "--stats", "-"});
+  const Words all = square("-o {} --size 16x16 --spp 2 --clamp 1.5 --quiet --stats -", {path("a.exr")});
   if (!begin()) GTEST_SKIP() << "no locale with a comma can be made here (localedef)";
   const Output output = run_gatelight(all, [] { ::setenv("LC_ALL", "comma", 1); });
   end();
   EXPECT_EQ(output.exit_code, 0) << output.err;
   EXPECT_EQ(nlohmann::json::parse(output.out)["options"]["clamp"], 1.5);
-  const Output comma = run_gatelight(words({"-o", path("a.exr"), "--clamp", "1,5", "--quiet"}));
+  const Output comma = run_gatelight(square("-o {} --clamp 1,5 --quiet", {path("a.exr")}));
   expect_failure(comma, 1, {"--clamp", "1,5", "0"});
 }
 

@@ -204,7 +204,7 @@ TEST(Radiance, AWhiteFurnaceAddsItsEmissionAtEachScattering) {
   const Rendered roulette = render(builder.scene(), options);
   EXPECT_TRUE(roulette.sane());
   Moments pixels;
-  for (std::size_t i = 0; i < roulette.values.size(); i += 3) 
+  for (std::size_t i = 0; i < roulette.values.size(); i += 3)
     pixels.add(static_cast<double>(roulette.values[i]));
   EXPECT_GT(mean_p_value(pixels, 31.0), 1e-4) << pixels.mean() << " +- " << pixels.standard_error();
   for (const Integrator integrator : {Integrator::nrc, Integrator::nao}) {

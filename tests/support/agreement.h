@@ -42,8 +42,7 @@ inline std::vector<float> answers(const Backend& backend, const Model& model, co
 }
 
 inline std::vector<float> raw_answers(const Backend& backend, const Model& model, const OwnedBatch& batch,
-                                      bool averaged = true,
-                                      QueryPrecision precision = QueryPrecision::fp32) {
+                                      bool averaged = true, QueryPrecision precision = QueryPrecision::fp32) {
   return answers(backend, model, batch, {precision, OutputRange::raw, averaged});
 }
 

@@ -80,18 +80,19 @@ TEST(CacheStatistics, AreInTheStatisticsFile) {
                       {"negative_answers", 7},
                       {"unstored_hits", 2}};
   EXPECT_EQ(stats["cache"], cache);
-  const json& seconds = stats["seconds"];
-  EXPECT_EQ(seconds["scout"], 0.5);
-  EXPECT_EQ(seconds["setup"], 0.75);
-  EXPECT_EQ(seconds["train"], 8.0);
-  EXPECT_EQ(seconds["train_trace"], 5.0);
-  EXPECT_EQ(seconds["train_query"], 1.0);
-  EXPECT_EQ(seconds["train_step"], 2.0);
-  EXPECT_EQ(seconds["render_trace"], 3.0);
-  EXPECT_EQ(seconds["render_query"], 1.5);
-  EXPECT_EQ(stats["memory_bytes"]["parameters"], 1 << 20);
-  EXPECT_EQ(stats["memory_bytes"]["optimizer"], 2 << 20);
-  EXPECT_EQ(stats["memory_bytes"]["layout"], 3 << 20);
+  for (const auto& [key, value] :
+       std::initializer_list<std::pair<const char*, double>>{{"scout", 0.5},
+                                                             {"setup", 0.75},
+                                                             {"train", 8.0},
+                                                             {"train_trace", 5.0},
+                                                             {"train_query", 1.0},
+                                                             {"train_step", 2.0},
+                                                             {"render_trace", 3.0},
+                                                             {"render_query", 1.5}})
+    EXPECT_EQ(stats["seconds"][key], value) << key;
+  for (const auto& [key, value] :
+       {std::pair{"parameters", 1 << 20}, {"optimizer", 2 << 20}, {"layout", 3 << 20}})
+    EXPECT_EQ(stats["memory_bytes"][key], value) << key;
   EXPECT_EQ(stats["device"], "cpu");
 }
 
@@ -103,28 +104,6 @@ TEST(CacheStatistics, AreAbsentWithoutACache) {
   }
   EXPECT_TRUE(stats["seconds"].contains("render_trace"));
   EXPECT_FALSE(stats["memory_bytes"].contains("parameters"));
-}
-
-TEST(CacheStatistics, AreSummarisedAsText) {
-  renderer::CacheStatistics s = some_statistics();
-  EXPECT_THAT(cache_summary(s, ""),
-              AllOf(HasSubstr("128 steps (chosen)"), HasSubstr("2.10 M records"), HasSubstr("loss 0.25"),
-                    HasSubstr("scout 0.50, setup 0.75, train 8.00"), HasSubstr("query 1.50"),
-                    HasSubstr("12 345 nodes"), HasSubstr("10 of 40 sides"), HasSubstr("1.00 MiB")));
-  s.steps = 100;
-  s.steps_chosen = false;
-  EXPECT_THAT(cache_summary(s, ""), AllOf(HasSubstr("100 of 128 steps,"), Not(HasSubstr("chosen"))));
-}
-
-TEST(CacheStatistics, ALoadedCacheIsCalledLoaded) {
-  renderer::CacheStatistics s = some_statistics();
-  EXPECT_THAT(cache_summary(s, "room.safetensors"),
-              AllOf(HasSubstr("loaded    the cache 'room.safetensors'\n"), HasSubstr("training  128 steps")));
-  s.steps = s.steps_wanted = 0;
-  s.steps_chosen = false;
-  EXPECT_THAT(cache_summary(s, "room.safetensors"),
-              AllOf(HasSubstr("loaded"), Not(HasSubstr("training")), Not(HasSubstr("loss"))));
-  EXPECT_THAT(cache_summary(s, ""), AllOf(HasSubstr("training  0 steps\n"), Not(HasSubstr("loss"))));
 }
 
 renderer::CacheReport some_report() {
@@ -146,9 +125,6 @@ TEST(CacheReport, TextShowsTheLargestInstancesAndSums) {
   renderer::RenderOptions options;
   options.integrator = Integrator::nrc;
   const std::string text = cache_report_text(some_report(), options);
-  EXPECT_THAT(text, AllOf(HasSubstr("nrc, gate, 12 345 nodes"), HasSubstr("without scouting 8.00 MiB"),
-                          HasSubstr("features, direction of view\n"), HasSubstr("10 of 40 possible"),
-                          HasSubstr("0.125 m"), HasSubstr("1: 6, 4: 4")));
   EXPECT_LT(text.find("instance 19\n"), text.find("instance 18\n"));
   EXPECT_THAT(text, AllOf(HasSubstr("4,1  instance 8\n"), Not(HasSubstr("instance 7\n"))));
   EXPECT_THAT(text, HasSubstr("      28 000           80      8             8 others\n"));

@@ -26,9 +26,7 @@ class Usage : public FolderTest {
   /// Runs a render of the tiny scene that must be refused. It runs in this process, because there are many
   /// and the program starts slowly.
   Output refused(const std::vector<std::string>& flags) const {
-    std::vector<std::string> arguments = {"render", scene(), "-o", path("a.png")};
-    arguments.insert(arguments.end(), flags.begin(), flags.end());
-    Output output = run_gatelight_inside(arguments);
+    const Output output = run_gatelight_inside(words_of("render {} -o {}", {scene(), path("a.png")}, flags));
     EXPECT_EQ(output.out, "");
     EXPECT_FALSE(std::filesystem::exists(path("a.png")));
     return output;
@@ -65,65 +63,17 @@ TEST_F(Usage, HelpOfATopicHasAllOfItsFlagsAndNoOthers) {
               AllOf(HasSubstr("--projection"), Not(HasSubstr("--train-steps"))));
 }
 
-TEST_F(Usage, HelpGoesToStdoutAndNamesEveryFlagWithItsDefault) {
+TEST_F(Usage, HelpGoesToStdoutAndNamesValuesAndDefaults) {
   const Output root = expect_done(run_gatelight({"--help"}));
   EXPECT_EQ(root.err, "");
-  for (const char* word :
-       {"render", "compare", "info", "merge", "sweep", "--config", "Exit codes", "Examples"}) {
+  for (const char* word : {"render", "compare", "info", "merge", "sweep", "--config", "Exit codes"})
     EXPECT_THAT(root.out, HasSubstr(word));
-  }
-  const Output render = expect_done(run_gatelight({"render", "--help-all"}));
-  EXPECT_THAT(render.out, StartsWith("Render a scene"));
-  for (const char* word : {"Usage: gatelight render",
-                           "--integrator path|ao|nao|nrc",
-                           "--spp N",
-                           "[64]",
-                           "--time-limit SECONDS",
-                           "--max-error E",
-                           "[960x540]",
-                           "--region x0,y0,x1,y1",
-                           "--max-depth",
-                           "--min-depth",
-                           "--seed",
-                           "--threads",
-                           "--camera NAME|INDEX",
-                           "--eye",
-                           "--target",
-                           "--up",
-                           "--fov DEGREES",
-                           "--environment auto|none|r,g,b|FILE",
-                           "--environment-rotation DEGREES",
-                           "--environment-scale",
-                           "--exposure EV",
-                           "--aov LIST",
-                           "--clamp",
-                           "--missing error|warn",
-                           "--nan drop|error",
-                           "--stats FILE|-",
-                           "--progress auto|bar|json|none",
-                           "--quiet",
-                           "--verbose",
-                           "--isa auto|scalar|avx2|avx512",
-                           "--memory-limit MIB",
-                           "--preset bare|preview|standard|final|paper-nao|paper-nrc",
-                           "--train-steps N|auto",
-                           "--stack LIST",
-                           "[adaptive",
-                           "--cache-memory MIB",
-                           "--query-at primary|gather|spread|none",
-                           "--checkpoint FILE",
-                           "--tonemap none|filmic",
-                           "--exr half|float",
-                           "--ao-distance METRES",
-                           "Examples:"}) {
-    EXPECT_THAT(render.out, HasSubstr(word));
-  }
-  EXPECT_THAT(run_gatelight({"compare", "--help"}).out, HasSubstr("rel_mse"));
-  EXPECT_THAT(
-      run_gatelight({"info", "--help-all"}).out,
-      AllOf(HasSubstr("Examples:"), HasSubstr("--integrator path|ao|nao|nrc"), HasSubstr("--stack LIST"),
-            HasSubstr("--environment auto|none|r,g,b|FILE"), HasSubstr("[warn]")));
-  EXPECT_THAT(run_gatelight_inside({"merge", "--help"}).out, HasSubstr("Example:"));
+  EXPECT_THAT(run_gatelight_inside({"render", "--help-all"}).out,
+              AllOf(StartsWith("Render a scene"), HasSubstr("--integrator path|ao|nao|nrc"),
+                    HasSubstr("[960x540]"), HasSubstr("--query-at primary|gather|spread|none")));
+  EXPECT_THAT(run_gatelight_inside({"info", "--help-all"}).out,
+              AllOf(HasSubstr("--stack LIST"), HasSubstr("[warn]")));
+  EXPECT_THAT(run_gatelight_inside({"compare", "--help"}).out, HasSubstr("rel_mse"));
 }
 
 TEST_F(Usage, VersionNamesProgramAndDenoiserOnStdout) {
@@ -172,11 +122,10 @@ TEST_F(Usage, TheNearestNameIsSuggested) {
   };
   for (const auto& [arguments, meant] : cases) {
     const Output output = run_gatelight_inside(arguments);
-    const bool near = meant[0] != '\0';
-    if (near) {
-      expect_failure(output, 1, {fmt::format("did you mean '{}'?", meant)});
+    expect_failure(output, 1, {});
+    if (meant[0] != '\0') {
+      EXPECT_THAT(output.err, HasSubstr(fmt::format("did you mean '{}'?", meant)));
     } else {
-      expect_failure(output, 1, {});
       EXPECT_THAT(output.err, Not(HasSubstr("did you mean")));
     }
   }
@@ -189,12 +138,9 @@ struct BadValue {
 
 const std::vector<BadValue> kBadValues = {
     {{"--spp", "0"}, {"--spp", "0", "1"}},
-    {{"--spp", "4.5"}, {"--spp", "4.5"}},
-    {{"--spp", "99999999999"}, {"--spp", "99999999999", "1"}},
     {{"--size", "0x10"}, {"--size", "0x10", "1", "65536"}},
     {{"--size", "65536x65536"}, {"--size", "65536x65536"}},
     {{"--fov", "180"}, {"--fov", "180", "0.001", "179.9"}},
-    {{"--fov", "0"}, {"--fov", "0", "0.001"}},
     {{"--eye", "1e20,0,0", "--target", "0,0,0"}, {"--eye", "1e+20", "1e+12"}},
     {{"--clamp", "1e-41"}, {"--clamp", "1e-41", "0", "1.18e-38"}},
     {{"--checkpoint", ""}, {"--checkpoint", "''", "FILE"}},
@@ -204,11 +150,8 @@ const std::vector<BadValue> kBadValues = {
     {{"-o", ""}, {"--output", "''", "FILE"}},
     {{"--config", ""}, {"--config", "''", "FILE.toml"}},
     {{"--time-limit", "-1"}, {"--time-limit", "-1", "0"}},
-    {{"--time-limit", "nan"}, {"--time-limit", "nan", "0"}},
     {{"--max-error", "-0.1"}, {"--max-error", "-0.1", "0"}},
-    {{"--max-error", "5%"}, {"--max-error", "5%", "0"}},
     {{"--region", "0,0,961,1"}, {"--region", "0,0,961,1", "960"}},
-    {{"--region", "5,5,5,6"}, {"--region", "5,5,5,6"}},
     {{"--seed", "4294967296"}, {"--seed", "4294967296", "4294967295"}},
     {{"--max-depth", "-1"}, {"--max-depth", "-1", "0"}},
     {{"--threads", "-2"}, {"--threads", "-2", "0"}},
@@ -220,15 +163,12 @@ const std::vector<BadValue> kBadValues = {
     {{"--aov", "albedo,beauty"}, {"--aov", "beauty", "albedo|normal"}},
     {{"--cryptomatte", "object,asset"}, {"--cryptomatte", "asset", "object|material"}},
     {{"--environment", "1,-2,3"}, {"--environment", "1,-2,3", "0"}},
-    {{"--sky", "turbidity=0"}, {"--sky", "turbidity", "0", "1", "10"}},
     {{"--sky", "clear", "--environment", "auto"}, {"--sky", "environment"}},
     {{"--lights", "lamp"}, {"--lights", "lamp", "NAME=off"}},
     {{"--lights", "lamp=-1"}, {"--lights", "-1", "0"}},
     {{"--lights", "lamp=1,2"}, {"--lights", "1,2"}},
     {{"--lights", "lamp=off;"}, {"--lights", "''", "NAME=off"}},
     {{"--light-groups", "key"}, {"--light-groups", "key", "NAME=LIGHT"}},
-    {{"--light-groups", "rest=lamp"}, {"--light-groups", "rest"}},
-    {{"--light-groups", "key=lamp", "--integrator", "ao"}, {"--light-groups", "ao", "--integrator path"}},
     {{"--eye", "1,2", "--target", "0,0,0"}, {"--eye", "1,2"}},
     {{"--eye", "1,2,3"}, {"--target", "eye"}},
     {{"--eye", "1,2,3", "--target", "1,2,3"}, {"--target", "1,2,3"}},
@@ -237,7 +177,6 @@ const std::vector<BadValue> kBadValues = {
     {{"--progress", "loud"}, {"--progress", "loud", "auto|bar|json|none"}},
     {{"--quiet", "--verbose"}, {"--quiet", "verbose"}},
     {{"--train-steps", "-1"}, {"--train-steps", "-1", "0"}},
-    {{"--train-steps", "many"}, {"--train-steps", "many"}},
     {{"--batch", "0"}, {"--batch", "0", "1"}},
     {{"--self-training", "on"}, {"--self-training", "on"}},
     {{"--self-training-full", "1.5"}, {"--self-training-full", "1.5", "1"}},
@@ -260,9 +199,6 @@ const std::vector<BadValue> kBadValues = {
     {{"--device", "vulkan:"}, {"--device", "vulkan:", "INDEX"}},
     {{"--preset", "fast"}, {"--preset", "fast", "bare|preview|standard|final|paper-nao|paper-nrc"}},
     {{"--checkpoint-every", "-1"}, {"--checkpoint-every", "-1", "0"}},
-    {{"--query-at", "gather"}, {"--query-at", "path", "nao", "nrc"}},
-    {{"--aov", "resolution"}, {"--aov", "resolution", "nao", "nrc"}},
-    {{"--resume"}, {"--resume", "checkpoint", "FILE"}},
     {{"--spp"}, {"--spp"}},
     {{"--spp", "1", "--spp", "2"}, {"--spp", "2"}},
 };
@@ -359,11 +295,6 @@ TEST_F(Usage, AConfigFileIsTextOfAtMostOneMebibyte) {
   const Output unknown = refused({"--config", folder.write("u.toml", std::string(100000, 'k') + " = 3\n")});
   EXPECT_EQ(unknown.exit_code, 1);
   EXPECT_LT(unknown.err.size(), 1000u);
-}
-
-TEST_F(Usage, AFlagGivenTwiceIsNamed) {
-  const Output output = refused({"--spp", "2", "--spp", "3"});
-  expect_failure(output, 1, {"--spp", "2"});
 }
 
 TEST_F(Usage, AnErrorInAValueOfAConfigFileNamesTheFile) {
