@@ -6,7 +6,6 @@
 
 #include "renderer/image/image_read.h"
 #include "renderer/image/image_write.h"
-#include "renderer/light/environment_picture.h"
 #include "tests/extremes/pictures.h"
 #include "tests/support/room.h"
 #include "tests/support/statistics.h"
@@ -209,56 +208,6 @@ TEST(Radiance, AWhiteFurnaceAddsItsEmissionAtEachScattering) {
   EXPECT_GT(mean_p_value(pixels, 31.0), 1e-4) << pixels.mean() << " +- " << pixels.standard_error();
   for (const Integrator integrator : {Integrator::nrc, Integrator::nao}) {
     EXPECT_TRUE(render(builder.scene(), small(integrator, 2)).sane());
-  }
-}
-
-TEST(Radiance, OneHotTexelOfTheSkyIsSampledWithoutBias) {
-  // A sky of 1 with one texel of 1e8: irradiance on a plane by direct sums over the texels.
-  constexpr int kWidth = 256, kHeight = 128;
-  std::vector<Color> texels(kWidth * kHeight, Color::Ones());
-  constexpr int kHotX = 40, kHotY = 30;
-  texels[kHotY * kWidth + kHotX].setConstant(1e8f);
-  const EnvironmentPicture picture(kWidth, kHeight, texels);
-  // Importance sampling: the mean of radiance over density is the light from the whole sphere.
-  Random random(3);
-  Moments light;
-  for (int i = 0; i < 200'000; ++i) {
-    const EnvironmentSample s = picture.sample({random.uniform_float(), random.uniform_float()});
-    ASSERT_GT(s.pdf, 0.0f);
-    ASSERT_TRUE(std::isfinite(s.pdf));
-    light.add(static_cast<double>(s.radiance.x()) / static_cast<double>(s.pdf));
-  }
-  const double whole = static_cast<double>(picture.mean().x()) * 4.0 * M_PI;
-  EXPECT_NEAR(light.mean(), whole, 4.5 * light.standard_error() + 1e-4 * whole);
-}
-
-TEST(Radiance, InfiniteTexelsOfTheSkyBecomeItsBrightestFiniteValue) {
-  const tests::TemporaryFolder folder;
-  const std::string file = (folder / "sky.exr").string();
-  for (const float brightest : {1.0f, 1e6f, 1e30f}) {
-    const float taken = std::max(brightest, 65504.0f);
-    std::vector<float> means;
-    for (const float sun : {kInfinity, taken}) {
-      Picture sky{.width = 16, .height = 8};
-      Layer beauty{.channels = {"R", "G", "B"}, .full_precision = true};
-      beauty.values.assign(3 * 16 * 8, 0.5f);
-      beauty.values[3 * 20] = sun;
-      beauty.values[3 * 40] = brightest;
-      sky.layers = {beauty};
-      write_image(sky, file);
-      for (const Integrator integrator : kAll) {
-        RenderOptions options = small(integrator, 4);
-        options.environment.file = file;
-        options.camera = small_picture().camera;
-        const Rendered picture = render(room(), options);
-        EXPECT_TRUE(picture.sane()) << brightest;
-        EXPECT_EQ(picture.statistics.warnings.size(), sun == kInfinity ? 1u : 0u);
-        means.push_back(static_cast<float>(picture.mean()));
-      }
-    }
-    for (std::size_t i = 0; i < std::size(kAll); ++i) {
-      EXPECT_EQ(means[i], means[i + std::size(kAll)]) << brightest << " " << i;
-    }
   }
 }
 
