@@ -21,11 +21,13 @@ class DenoiseCommand : public FolderTest {
  protected:
   std::string render(const std::string& name, const std::vector<std::string>& more = {},
                      const std::string& seed = "1") const {
-    std::vector<std::string> words =
+    expect_done(run_gatelight_inside(
         words_of("render {} -o {} --size 40x32 --spp 8 --environment 1,0.9,0.8 --seed {} --quiet",
-                 {folder.write("scene.gltf", tiny_scene()), path(name), seed}, more);
-    expect_done(run_gatelight_inside(words));
+                 {folder.write("scene.gltf", tiny_scene()), path(name), seed}, more)));
     return path(name);
+  }
+  Output denoise(const std::string& input, const std::string& output, const Words& more = {}) const {
+    return run_gatelight_inside(words_of("denoise {} -o {}", {path(input), path(output)}, more));
   }
   static std::vector<float> beauty(const std::string& file) {
     return renderer::read_image(file).layers[0].values;
@@ -34,15 +36,12 @@ class DenoiseCommand : public FolderTest {
 
 TEST_F(DenoiseCommand, GivesTheFinishedPicture) {
   GATELIGHT_NEEDS_DENOISER();
-  const std::vector<std::vector<std::string>> flags = {
-      {"--denoiser", "oidn"},
-      {"--denoiser", "oidn", "--supersampling", "2", "--filter", "tent"},
-      {"--denoiser", "oidn", "--prefilter", "fast", "--background", "transparent"},
-      {"--denoiser", "oidn", "--background", "0.5,0,1", "--exposure", "1", "--tonemap", "agx"}};
-  for (const std::vector<std::string>& some : flags) {
-    std::vector<std::string> more = some;
-    more.insert(more.end(), {"--aov", "denoising,depth", "-o", path("finished.png")});
-    const std::string finished = render("finished.exr", more);
+  for (const char* const flags :
+       {"", "--supersampling 2 --filter tent", "--prefilter fast --background transparent",
+        "--background 0.5,0,1 --exposure 1 --tonemap agx"}) {
+    const std::string finished = render(
+        "finished.exr",
+        words_of("--denoiser oidn --aov denoising,depth -o {}", {path("finished.png")}, words_of(flags)));
     const Output output =
         expect_done(run_gatelight({"denoise", finished, "-o", path("again.exr"), "-o", path("again.png")}));
     EXPECT_NE(output.err.find("Open Image Denoise 2."), std::string::npos) << output.err;
@@ -63,10 +62,9 @@ TEST_F(DenoiseCommand, ReadsTheGuidesAsTheRecipeSays) {
   for (const char* const denoiser : {"oidn", "none"}) {
     const std::string input =
         render("a.exr", {"--denoiser", denoiser, "--prefilter", "none", "--aov", "denoising"});
-    expect_done(run_gatelight_inside({"denoise", input, "-o", path("b.exr"), "--quiet"}));
+    expect_done(denoise(input, "b.exr", {"--quiet"}));
     EXPECT_EQ(beauty(path("b.exr")), finished) << denoiser;
-    expect_done(
-        run_gatelight_inside({"denoise", input, "-o", path("b.exr"), "--quiet", "--prefilter", "accurate"}));
+    expect_done(denoise(input, "b.exr", {"--quiet", "--prefilter", "accurate"}));
     EXPECT_NE(beauty(path("b.exr")), finished) << denoiser;
   }
 }
@@ -76,23 +74,10 @@ TEST_F(DenoiseCommand, FinishesMergedPartsOfAPicture) {
   const std::string a = render("a.exr", {"--aov", "denoising"}, "1"),
                     b = render("b.exr", {"--aov", "denoising"}, "2");
   expect_done(run_gatelight_inside({"merge", a, b, "-o", path("merged.exr")}));
-  const Output output = expect_done(
-      run_gatelight_inside({"denoise", path("merged.exr"), "-o", path("finished.exr"), "--quiet"}));
+  const Output output = expect_done(denoise("merged.exr", "finished.exr", {"--quiet"}));
   EXPECT_EQ(output.out + output.err, "");
   EXPECT_NE(beauty(path("finished.exr")), beauty(path("merged.exr")));
   EXPECT_EQ(renderer::read_image(path("finished.exr")).metadata.at("spp"), "16");
-}
-
-TEST_F(DenoiseCommand, TakesLayersOfOtherNames) {
-  GATELIGHT_NEEDS_DENOISER();
-  const std::string input = render("a.exr", {"--aov", "albedo,normal"});
-  expect_done(run_gatelight_inside({"denoise", input, "-o", path("usual.exr"), "--quiet"}));
-  expect_done(run_gatelight_inside({"denoise", input, "-o", path("named.exr"), "--quiet", "--albedo-layer",
-                                    "albedo", "--normal-layer", "normal"}));
-  EXPECT_NE(beauty(path("usual.exr")), beauty(input));
-  EXPECT_EQ(beauty(path("usual.exr")), beauty(path("named.exr")));
-  expect_failure(run_gatelight_inside({"denoise", input, "-o", path("o.exr"), "--normal-layer", "N"}), 2,
-                 {"a.exr", "'N'"});
 }
 
 /// A picture of another program: noisy_image() in layers of these names and channels.
@@ -126,14 +111,13 @@ TEST_F(DenoiseCommand, ReplacesTheLayerThatIsNamedAndNoOther) {
   const renderer::NoisyImage image = testing::noisy_image(kWidth, kHeight);
   write_image(picture_of(image, {"image", "albedo", "sh_normal"}), path("a.exr"), {.exr_float = true});
   const Output output =
-      expect_done(run_gatelight_inside({"denoise", path("a.exr"), "-o", path("b.exr"), "--color-layer",
-                                        "image", "--normal-layer", "sh_normal"}));
+      expect_done(denoise("a.exr", "b.exr", {"--color-layer", "image", "--normal-layer", "sh_normal"}));
   EXPECT_NE(output.err.find("'image', with 'albedo' and 'sh_normal'"), std::string::npos) << output.err;
   const renderer::Picture picture = renderer::read_image(path("b.exr"));
   EXPECT_EQ(picture.find("albedo")->values, image.albedo);
   EXPECT_EQ(picture.find("sh_normal")->values, image.normal);
   EXPECT_LT(error_of(path("b.exr"), "image"), 0.2 * error_of(path("a.exr"), "image"));
-  expect_done(run_gatelight_inside({"denoise", path("a.exr"), "-o", path("c.exr"), "--quiet"}));
+  expect_done(denoise("a.exr", "c.exr", {"--quiet"}));
   EXPECT_EQ(read_file(path("c.exr")), read_file(path("b.exr"))) << "the usual names are the same layers";
 }
 
@@ -180,7 +164,7 @@ TEST_F(DenoiseCommand, DenoisesGreyPicturesAndSeveralViewLayers) {
   for (std::size_t i = 0; i < image.color.size(); i += 3)
     grey.layers[0].values.insert(grey.layers[0].values.end(), {0.5f, image.color[i]});
   write_image(grey, path("grey.exr"), {.exr_float = true});
-  expect_done(run_gatelight_inside({"denoise", path("grey.exr"), "-o", path("b.exr"), "--quiet"}));
+  expect_done(denoise("grey.exr", "b.exr", {"--quiet"}));
   const renderer::Layer read = renderer::read_image(path("b.exr")).layers[0];
   ASSERT_EQ(read.channels, (std::vector<std::string>{"A", "Y"}));
   const std::vector<float> clean = testing::clean_image(kWidth, kHeight).color;
@@ -197,7 +181,7 @@ TEST_F(DenoiseCommand, DenoisesGreyPicturesAndSeveralViewLayers) {
     two.layers.push_back(layer);
   two.layers.push_back({"Composite.Combined", {"R", "G", "B"}, image.color, true});
   write_image(two, path("two.exr"), {.exr_float = true});
-  const Output output = run_gatelight_inside({"denoise", path("two.exr"), "-o", path("c.exr")});
+  const Output output = denoise("two.exr", "c.exr");
   EXPECT_NE(output.err.find("left      'Composite.Combined'"), std::string::npos) << output.err;
   for (const char* const layer : {"V.Combined", "O.Combined"})
     EXPECT_LT(error_of(path("c.exr"), layer), 0.2 * error_of(path("two.exr"), layer)) << layer;
@@ -208,83 +192,58 @@ TEST_F(DenoiseCommand, FramesAreThoseThatExistOrThatAreNamed) {
   GATELIGHT_NEEDS_DENOISER();
   for (const char* const name : {"in-0001.exr", "in-0003.exr", "in-12.exr", "on-0005.exr", "in-0007.png"})
     write_image(picture_of(testing::noisy_image(kWidth, kHeight), {"", "none", "none"}), path(name));
-  const Output all = expect_done(run_gatelight_inside(
-      {"denoise", path("in-%04d.exr"), "-o", path("out-%04d.exr"), "-o", path("out-%04d.png")}));
+  const Output all = expect_done(denoise("in-%04d.exr", "out-%04d.exr", {"-o", path("out-%04d.png")}));
   EXPECT_NE(all.err.find("2 frames"), std::string::npos) << all.err;
   for (const char* const name : {"out-0001.exr", "out-0003.exr", "out-0001.png", "out-0003.png"})
     EXPECT_TRUE(std::filesystem::exists(path(name))) << name;
-  expect_done(
-      run_gatelight_inside({"denoise", path("in-%04d.exr"), "-o", path("n-%04d.exr"), "--frames", "3"}));
+  expect_done(denoise("in-%04d.exr", "n-%04d.exr", {"--frames", "3"}));
   EXPECT_FALSE(std::filesystem::exists(path("n-0001.exr")));
   EXPECT_EQ(read_file(path("n-0003.exr")), read_file(path("out-0003.exr")));
-  expect_failure(
-      run_gatelight_inside({"denoise", path("in-%04d.exr"), "-o", path("o-%04d.exr"), "--frames", "1:3"}), 2,
-      {"in-0002.exr"});
-  expect_failure(run_gatelight_inside({"denoise", path("no-%04d.exr"), "-o", path("o-%04d.exr")}), 2,
-                 {"no-%04d.exr"});
-  expect_failure(run_gatelight_inside({"denoise", path("in-%04d.exr"), "-o", path("o.exr")}), 1,
-                 {"o.exr", "%04d"});
-  expect_failure(run_gatelight_inside({"denoise", path("in-%04d.exr"), "-o", path("in-%04d.exr")}), 1,
-                 {"INPUT"});
+  expect_failure(denoise("in-%04d.exr", "o-%04d.exr", {"--frames", "1:3"}), 2, {"in-0002.exr"});
+  expect_failure(denoise("no-%04d.exr", "o-%04d.exr"), 2, {"no-%04d.exr"});
+  expect_failure(denoise("in-%04d.exr", "o.exr"), 1, {"o.exr", "%04d"});
+  expect_failure(denoise("in-%04d.exr", "in-%04d.exr"), 1, {"INPUT"});
 }
 
 TEST_F(DenoiseCommand, PutsAnotherBackgroundBehindThePicture) {
   GATELIGHT_NEEDS_DENOISER();
   const std::string input = render("a.exr", {"--aov", "denoising", "--background", "transparent"});
   const std::string red = render("red.exr", {"--denoiser", "oidn", "--background", "1,0,0"});
-  expect_done(
-      run_gatelight_inside({"denoise", input, "-o", path("b.exr"), "--quiet", "--background", "1,0,0"}));
+  expect_done(denoise(input, "b.exr", {"--quiet", "--background", "1,0,0"}));
   EXPECT_EQ(beauty(path("b.exr")), beauty(red));
   // Its samples have no alpha.
   const std::string raw = render("raw.exr", {"--denoiser", "oidn", "--aov", "raw", "--background", "1,0,0"});
-  expect_failure(run_gatelight_inside({"denoise", raw, "-o", path("o.exr")}), 2,
-                 {"raw.exr", "alpha", "--aov denoising"});
-}
-
-TEST_F(DenoiseCommand, ThreadsDoNotChangeTheFile) {
-  GATELIGHT_NEEDS_DENOISER();
-  const std::string input = render("a.exr", {"--aov", "denoising"});
-  for (const char* threads : {"1", "2"}) {
-    const std::string output = path(std::string(threads) + ".exr");
-    expect_done(run_gatelight_inside({"denoise", input, "-o", output, "--threads", threads, "--quiet"}));
-  }
-  EXPECT_EQ(read_file(path("1.exr")), read_file(path("2.exr")));
+  expect_failure(denoise(raw, "o.exr"), 2, {"raw.exr", "alpha", "--aov denoising"});
 }
 
 TEST_F(DenoiseCommand, WrongFilesAreRefused) {
   GATELIGHT_NEEDS_DENOISER();
   const std::string finished = render("finished.exr", {"--denoiser", "oidn"});
-  expect_failure(run_gatelight_inside({"denoise", finished, "-o", path("o.exr")}), 2,
-                 {"finished.exr", "denoised already", "--aov denoising"});
-  expect_failure(run_gatelight_inside({"denoise", path("missing.exr"), "-o", path("o.exr")}), 2,
-                 {"missing.exr"});
-  expect_failure(run_gatelight_inside({"denoise", path("picture.png"), "-o", path("o.exr")}), 1,
-                 {"picture.png", ".exr"});
-  expect_failure(run_gatelight_inside({"denoise", finished, "-o", path("no/o.exr")}), 3, {"no"});
-  expect_failure(run_gatelight_inside({"denoise", finished, "-o", finished}), 1, {"--output", "INPUT"});
+  expect_failure(denoise(finished, "o.exr"), 2, {"finished.exr", "denoised already", "--aov denoising"});
+  expect_failure(denoise("missing.exr", "o.exr"), 2, {"missing.exr"});
+  expect_failure(denoise("picture.png", "o.exr"), 1, {"picture.png", ".exr"});
+  expect_failure(denoise(finished, "no/o.exr"), 3, {"no"});
+  expect_failure(denoise(finished, finished), 1, {"--output", "INPUT"});
   EXPECT_FALSE(std::filesystem::exists(path("o.exr")));
 }
 
 TEST_F(DenoiseCommand, WithoutTheLibraryPresetsWarnAndTheDenoiserRefuses) {
   const std::string scene = folder.write("scene.gltf", tiny_scene());
-  const std::vector<std::string> small = {"--size", "24x16", "--environment", "1,1,1", "--oidn", "/none"};
-  const auto run = [&](std::vector<std::string> words) {
-    words.insert(words.end(), small.begin(), small.end());
-    return run_gatelight_inside(words);
+  const auto run = [&](const Words& words) {
+    return run_gatelight_inside(words_of("render --size 24x16 --environment 1,1,1 --oidn /none", {}, words));
   };
-  const Output warned = expect_done(run({"render", scene, "-o", path("p.png"), "--preset", "preview"}));
+  const Output warned = expect_done(run({scene, "-o", path("p.png"), "--preset", "preview"}));
   EXPECT_NE(warned.err.find("warning: the picture keeps its noise: Open Image Denoise was not found"),
             std::string::npos)
       << warned.err;
   EXPECT_EQ(warned.err.find("scripts/setup"), std::string::npos) << "it would not help";
   EXPECT_TRUE(std::filesystem::exists(path("p.png")));
-  expect_failure(run({"render", scene, "-o", path("q.png"), "--denoiser", "oidn"}), 5,
+  expect_failure(run({scene, "-o", path("q.png"), "--denoiser", "oidn"}), 5,
                  {"/none", "--oidn", "scripts/setup"});
   // Before the scene is read.
-  expect_failure(run({"render", path("broken.gltf"), "-o", path("q.png"), "--denoiser", "oidn"}), 2,
-                 {"broken"});
+  expect_failure(run({path("broken.gltf"), "-o", path("q.png"), "--denoiser", "oidn"}), 2, {"broken"});
   EXPECT_FALSE(std::filesystem::exists(path("q.png")));
-  expect_failure(run_gatelight_inside({"denoise", path("p.png"), "-o", path("o.exr")}), 1, {"p.png"});
+  expect_failure(denoise("p.png", "o.exr"), 1, {"p.png"});
 }
 
 }  // namespace

@@ -30,16 +30,11 @@ class InfoCommand : public FolderTest {
     const auto light = [&](const char* name, const char* type, json more) {
       json one = {{"name", name}, {"type", type}, {"color", {1.0, 0.5, 0.25}}, {"intensity", 8.0}};
       one.update(more);
-      file["extensions"]["KHR_lights_punctual"]["lights"].push_back(one);
-      const std::size_t index = file["extensions"]["KHR_lights_punctual"]["lights"].size() - 1;
-      file["nodes"].push_back(
-          {{"translation", {3, 0, 1}}, {"extensions", {{"KHR_lights_punctual", {{"light", index}}}}}});
-      file["scenes"][0]["nodes"].push_back(file["nodes"].size() - 1);
+      add_light(file, one, {{"translation", {3, 0, 1}}});
     };
     light("lamp", "point", {{"range", 12.5}});
     light("torch", "spot", {{"spot", {{"innerConeAngle", 0.25}, {"outerConeAngle", 0.5}}}});
     light("sun", "directional", json::object());
-    file["extensionsUsed"] = {"KHR_lights_punctual"};
     file["cameras"].push_back(
         {{"name", "plan"},
          {"type", "orthographic"},

@@ -22,10 +22,7 @@ using renderer::read_image;
 /// The tiny scene with a sun named "noon" that falls onto the square, whose material "panel" glows.
 std::string lit_scene() {
   json scene = json::parse(tiny_scene());
-  scene["extensionsUsed"] = {"KHR_lights_punctual"};
-  scene["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "directional"}, {"name", "noon"}}};
-  scene["nodes"].push_back({{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
-  scene["scenes"][0]["nodes"].push_back(2);
+  add_light(scene, {{"type", "directional"}, {"name", "noon"}});
   scene["materials"][0]["name"] = "panel";
   scene["materials"][0]["emissiveFactor"] = {0.25, 0.25, 0.25};
   return scene.dump();

@@ -19,16 +19,12 @@ class SquareRenders : public FolderTest {
  protected:
   Output render(const std::vector<std::string>& flags) const {
     if (std::find(flags.begin(), flags.end(), "--spp") != flags.end()) return render_open(flags);
-    std::vector<std::string> more = flags;
-    more.insert(more.end(), {"--spp", "4"});
-    return render_open(more);
+    return render_open(words_of("--spp 4", {}, flags));
   }
 
   /// Renders without --spp.
   Output render_open(const std::vector<std::string>& flags) const {
-    std::vector<std::string> arguments = {"render", scene, "--environment", "1,1,1", "--size", "24x16"};
-    arguments.insert(arguments.end(), flags.begin(), flags.end());
-    return run_gatelight(arguments);
+    return run_gatelight(words_of("render {} --environment 1,1,1 --size 24x16", {scene}, flags));
   }
 
   std::string scene = folder.write("scene.gltf", tiny_scene());

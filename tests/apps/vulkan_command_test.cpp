@@ -30,18 +30,15 @@ bool has_usable_device() {
 
 class VulkanCommand : public FolderTest {
  protected:
-  using Words = std::vector<std::string>;
-
   void SetUp() override {
     if (has_usable_device()) return;
     if (std::getenv("GATELIGHT_REQUIRE_VULKAN") != nullptr) FAIL() << "no Vulkan device: " << devices();
     GTEST_SKIP() << "no Vulkan device";
   }
 
-  Output render(Words flags) const {
-    Words words = {"render", std::string(GATELIGHT_SOURCE_DIR) + "/data/cornell-box.glb", "--quiet"};
-    words.insert(words.end(), flags.begin(), flags.end());
-    return run_gatelight(words);
+  static Output render(const Words& flags) {
+    return run_gatelight(
+        words_of("render {} --quiet", {GATELIGHT_SOURCE_DIR "/data/cornell-box.glb"}, flags));
   }
 
   double flip(const std::string& a, const std::string& b) const {
@@ -52,34 +49,28 @@ class VulkanCommand : public FolderTest {
 };
 
 TEST_F(VulkanCommand, BothDevicesRenderTheSamePicture) {
-  for (const Words& cache : {Words{"--integrator", "nrc"}, Words{"--integrator", "nao"},
-                             Words{"--integrator", "nrc", "--encoding", "hashgrid"}}) {
-    for (const char* device : {"cpu", "vulkan"}) {
-      Words words = words_of("--size 64x48 --spp 2 --device {} --train-steps 48 --batch 512 -o {}",
-                             {device, path(std::string(device) + ".exr")});
-      words.insert(words.end(), {"--exr", "float"});  // half precision would round the difference away
-      words.insert(words.end(), cache.begin(), cache.end());
-      expect_done(render(words));
-    }
+  for (const char* cache : {"--integrator nrc", "--integrator nao", "--integrator nrc --encoding hashgrid"}) {
+    // Half precision would round the difference away.
+    for (const char* device : {"cpu", "vulkan"})
+      expect_done(
+          render(words_of("--size 64x48 --spp 2 --device {} --train-steps 48 --batch 512 --exr float -o {}",
+                          {device, path(std::string(device) + ".exr")}, words_of(cache))));
     const double difference = flip("cpu.exr", "vulkan.exr");
     EXPECT_GT(difference, 0.0);
-    EXPECT_LT(difference, 0.005) << ::testing::PrintToString(cache);
+    EXPECT_LT(difference, 0.005) << cache;
   }
 }
 
 TEST_F(VulkanCommand, ACacheOfOneDeviceAnswersOnTheOther) {
-  const Words size = {"--integrator", "nrc", "--size", "48x32", "--spp", "2", "--batch", "256"};
+  const std::string file = path("c.safetensors");
+  const auto picture = [&](const char* device, const std::string& name, const Words& more) {
+    expect_done(render(words_of("--integrator nrc --size 48x32 --spp 2 --batch 256 --device {} -o {}",
+                                {device, path(name)}, more)));
+  };
   for (const auto& [learner, queried] : {std::pair{"vulkan", "cpu"}, {"cpu", "vulkan"}}) {
-    Words learn = size, ask = size, own = size;
-    learn.insert(learn.end(), {"--train-steps", "16", "--device", learner, "--cache-out",
-                               path("c.safetensors"), "-o", path("learned.exr")});
-    own.insert(own.end(), {"--train-steps", "0", "--device", learner, "--cache-in", path("c.safetensors"),
-                           "-o", path("own.exr")});
-    ask.insert(ask.end(), {"--train-steps", "0", "--device", queried, "--cache-in", path("c.safetensors"),
-                           "-o", path("queried.exr")});
-    for (const Words& words : {learn, own, ask}) {
-      expect_done(render(words));
-    }
+    picture(learner, "learned.exr", {"--train-steps", "16", "--cache-out", file});
+    picture(learner, "own.exr", {"--train-steps", "0", "--cache-in", file});
+    picture(queried, "queried.exr", {"--train-steps", "0", "--cache-in", file});
     EXPECT_LT(flip("own.exr", "queried.exr"), 1e-4);
   }
 }
@@ -109,25 +100,10 @@ TEST_F(VulkanCommand, ALostDeviceIsCode5AndKeepsThePictureSoFar) {
 
 TEST_F(VulkanCommand, ACheckpointOutlivesALostDevice) {
   const auto words = [&](const std::string& picture) {
-    return Words{"--integrator",
-                 "nrc",
-                 "--size",
-                 "24x16",
-                 "--spp",
-                 "32",
-                 "--train-steps",
-                 "24",
-                 "--batch",
-                 "256",
-                 "--device",
-                 "vulkan",
-                 "-o",
-                 path(picture),
-                 "--checkpoint",
-                 path("checkpoint"),
-                 "--checkpoint-every",
-                 "0",
-                 "--resume"};
+    return words_of(
+        "--integrator nrc --size 24x16 --spp 32 --train-steps 24 --batch 256 --device vulkan -o {} "
+        "--checkpoint {} --checkpoint-every 0 --resume",
+        {path(picture), path("checkpoint")});
   };
   for (const char* after : {"12", "40"}) {
     setenv("GATELIGHT_VULKAN_LOSE_AFTER", after, 1);
@@ -135,7 +111,7 @@ TEST_F(VulkanCommand, ACheckpointOutlivesALostDevice) {
     unsetenv("GATELIGHT_VULKAN_LOSE_AFTER");
     EXPECT_EQ(lost.exit_code, 5);
     ASSERT_TRUE(std::filesystem::exists(path("checkpoint"))) << "after " << after;
-    const Output resumed = expect_done(render(words("resumed.exr")));
+    expect_done(render(words("resumed.exr")));
     std::filesystem::remove(path("checkpoint"));
     expect_done(render(words("whole.exr")));
     std::filesystem::remove(path("checkpoint"));

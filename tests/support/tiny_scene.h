@@ -1,6 +1,8 @@
 #pragma once
 
+#include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
 
 namespace gatelight::tests {
 
@@ -22,6 +24,17 @@ inline std::string tiny_scene() {
          "AACAPwAAgD8AAAAAAACAvwAAgD8AAAAA"
          R"("}]
 })";
+}
+
+/// Adds a light of KHR_lights_punctual and a node for it.
+inline void add_light(nlohmann::json& scene, nlohmann::json light,
+                      nlohmann::json node = nlohmann::json::object()) {
+  nlohmann::json& lights = scene["extensions"]["KHR_lights_punctual"]["lights"];
+  node["extensions"]["KHR_lights_punctual"]["light"] = lights.size();
+  lights.push_back(std::move(light));
+  scene["extensionsUsed"] = {"KHR_lights_punctual"};
+  scene["scenes"][0]["nodes"].push_back(scene["nodes"].size());
+  scene["nodes"].push_back(std::move(node));
 }
 
 }  // namespace gatelight::tests
