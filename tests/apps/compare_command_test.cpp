@@ -29,15 +29,20 @@ class CompareCommand : public FolderTest {
     renderer::write_image(picture, folder / name, {.exr_float = true});
     return path(name);
   }
+  static Output compare(const std::string& reference, const std::string& test, const Words& more = {}) {
+    return run_gatelight_inside(words_of("compare {} {}", {reference, test}, more));
+  }
+  static json results(const std::string& reference, const std::string& test, const Words& more = {}) {
+    return json::parse(expect_done(compare(reference, test, words_of("--json -", {}, more))).out);
+  }
 };
 
 TEST_F(CompareCommand, PrintsTextAndJson) {
   const std::string reference = picture("r.exr", 4, 2, 1.0f);
   const std::string test = picture("t.exr", 4, 2, 1.5f);
-  const Output text = expect_done(run_gatelight({"compare", reference, test}));
+  const Output text = expect_done(compare(reference, test));
   EXPECT_THAT(text.out, AllOf(HasSubstr("mse              0.25\n"), HasSubstr("max_error        0.5\n")));
-  const Output as_json = run_gatelight({"compare", reference, test, "--json", "-"});
-  const json result = json::parse(as_json.out);
+  const json result = results(reference, test);
   EXPECT_DOUBLE_EQ(result["mse"], 0.25);
   EXPECT_NEAR(result["rel_mse"], 0.25 / 1.01, 1e-12);
   EXPECT_DOUBLE_EQ(result["psnr"], -10.0 * std::log10(0.25));
@@ -49,24 +54,24 @@ TEST_F(CompareCommand, PrintsTextAndJson) {
 
 TEST_F(CompareCommand, MetricsAreChosenByName) {
   const std::string reference = picture("r.exr", 1, 1, 1.0f);
-  const Output output = expect_done(
-      run_gatelight({"compare", reference, reference, "--metric", "psnr,max", "--json", path("o.json")}));
+  const Output output =
+      expect_done(compare(reference, reference, {"--metric", "psnr,max", "--json", path("o.json")}));
   EXPECT_THAT(output.out, AllOf(HasSubstr("psnr             inf dB"), Not(HasSubstr("mse"))));
   const json result = json::parse(read_file(path("o.json")));
   EXPECT_TRUE(result["psnr"].is_null()) << "JSON has no infinity";
   EXPECT_FALSE(result.contains("mse"));
-  const Output unknown = run_gatelight({"compare", reference, reference, "--metric", "lpips"});
-  expect_failure(unknown, 1, {"lpips", "metric", "mse|rel_mse|psnr|mean|max|ssim|flip|hdr_flip"});
+  expect_failure(compare(reference, reference, {"--metric", "lpips"}), 1,
+                 {"lpips", "metric", "mse|rel_mse|psnr|mean|max|ssim|flip|hdr_flip"});
 }
 
 TEST_F(CompareCommand, FlipIsPrintedAndWrittenWithItsQuartiles) {
   // Uniform pictures: the same error everywhere.
   const std::string reference = picture("r.exr", 4, 2, 0.5f);
   const std::string test = picture("t.exr", 4, 2, 1.0f);
-  const Output text = run_gatelight_inside({"compare", reference, test});
+  const Output text = compare(reference, test);
   EXPECT_THAT(text.out, AllOf(HasSubstr("flip             0."), HasSubstr("hdr_flip         0."),
                               HasSubstr("weighted quartiles 0.")));
-  const json result = json::parse(run_gatelight_inside({"compare", reference, test, "--json", "-"}).out);
+  const json result = results(reference, test);
   for (const char* metric : {"flip", "hdr_flip"}) {
     const double mean = result[metric]["mean"];
     EXPECT_GT(mean, 0.1);
@@ -82,11 +87,9 @@ TEST_F(CompareCommand, FlipIsPrintedAndWrittenWithItsQuartiles) {
 TEST_F(CompareCommand, SsimIsPrintedAndWrittenWhereItsWindowFits) {
   const std::string black = picture("b.exr", 12, 11, 0.0f);
   const std::string white = picture("w.exr", 12, 11, 4.0f);
-  EXPECT_THAT(run_gatelight_inside({"compare", black, white}).out, HasSubstr("ssim             9.999e-05\n"));
+  EXPECT_THAT(compare(black, white).out, HasSubstr("ssim             9.999e-05\n"));
   const auto ssim = [&](const std::vector<std::string>& flags) {
-    std::vector<std::string> arguments = {"compare", black, white, "--metric", "ssim", "--json", "-"};
-    arguments.insert(arguments.end(), flags.begin(), flags.end());
-    return json::parse(run_gatelight_inside(arguments).out)["ssim"];
+    return results(black, white, words_of("--metric ssim", {}, flags))["ssim"];
   };
   EXPECT_NEAR(ssim({})["mean"], 1e-4 / 1.0001, 1e-9);
   // 2^-3 of the radiance is 0.5, which sRGB shows as 0.7354.
@@ -95,29 +98,25 @@ TEST_F(CompareCommand, SsimIsPrintedAndWrittenWhereItsWindowFits) {
   EXPECT_EQ(ssim({"--tonemap", "filmic"})["tonemap"], "filmic");
 
   const std::string small = picture("s.exr", 12, 10, 1.0f);
-  const Output output = expect_done(run_gatelight_inside({"compare", small, small, "--json", "-"}));
+  const Output output = expect_done(compare(small, small, {"--json", "-"}));
   EXPECT_EQ(output.err, "");
   EXPECT_TRUE(json::parse(output.out)["ssim"].is_null());
-  EXPECT_THAT(run_gatelight_inside({"compare", small, small}).out, HasSubstr("ssim             -\n"));
-  const Output by_name = run_gatelight_inside({"compare", small, small, "--metric", "ssim"});
-  expect_failure(by_name, 2, {"s.exr", "11x11"});
+  EXPECT_THAT(compare(small, small).out, HasSubstr("ssim             -\n"));
+  expect_failure(compare(small, small, {"--metric", "ssim"}), 2, {"s.exr", "11x11"});
 }
 
 TEST_F(CompareCommand, FlipFollowsExposureCurveAndPixelsPerDegree) {
   const std::string reference = picture("r.exr", 4, 2, 4.0f);
   const std::string test = picture("t.exr", 4, 2, 8.0f);
   const auto flip = [&](const std::vector<std::string>& flags) {
-    std::vector<std::string> arguments = {"compare", reference, test, "--metric", "flip", "--json", "-"};
-    arguments.insert(arguments.end(), flags.begin(), flags.end());
-    const Output output = expect_done(run_gatelight_inside(arguments));
-    return json::parse(output.out)["flip"];
+    return results(reference, test, words_of("--metric flip", {}, flags))["flip"];
   };
   EXPECT_EQ(flip({})["mean"], 0.0) << "both are white";
   EXPECT_GT(flip({"--exposure", "-3"})["mean"], 0.1);
   EXPECT_GT(flip({"--exposure", "-3", "--tonemap", "filmic"})["mean"], 0.05);
   EXPECT_EQ(flip({"--exposure", "-3"})["exposure"], -3.0);
   EXPECT_EQ(flip({"--pixels-per-degree", "20"})["pixels_per_degree"], 20.0);
-  EXPECT_EQ(run_gatelight_inside({"compare", reference, test, "--pixels-per-degree", "0"}).exit_code, 1);
+  EXPECT_EQ(compare(reference, test, {"--pixels-per-degree", "0"}).exit_code, 1);
 }
 
 TEST_F(CompareCommand, HalvesAlsoEstimateTheBias) {
@@ -125,19 +124,16 @@ TEST_F(CompareCommand, HalvesAlsoEstimateTheBias) {
   const std::string r1 = picture("r1.exr", 2, 2, 0.5f);
   const std::string r2 = picture("r2.exr", 2, 2, 1.5f);
   const std::string test = picture("t.exr", 2, 2, 2.0f);
-  const Output output =
-      expect_done(run_gatelight_inside({"compare", r1, test, "--halves", r2, test, "--json", "-"}));
+  const Output output = expect_done(compare(r1, test, {"--halves", r2, test, "--json", "-"}));
   const json result = json::parse(output.out);
   EXPECT_NEAR(result["bias_rel_mse"], 1.5 * 0.5 / 1.01, 1e-12);
   EXPECT_NEAR(result["rel_mse"], 1.0 / 1.01, 1e-12);
   EXPECT_EQ(result["halves"], json::array({r2, test}));
-  EXPECT_THAT(run_gatelight_inside({"compare", r1, test, "--halves", r2, test, "--metric", "max"}).out,
+  EXPECT_THAT(compare(r1, test, {"--halves", r2, test, "--metric", "max"}).out,
               AllOf(HasSubstr("max_error        1\n"), HasSubstr("bias_rel_mse     0.742574\n")));
-  EXPECT_FALSE(
-      json::parse(run_gatelight_inside({"compare", r1, test, "--json", "-"}).out).contains("bias_rel_mse"));
-  EXPECT_EQ(run_gatelight_inside({"compare", r1, test, "--halves", r2}).exit_code, 1);
-  const Output sizes =
-      run_gatelight_inside({"compare", r1, test, "--halves", r2, picture("n.exr", 1, 2, 2.0f)});
+  EXPECT_FALSE(results(r1, test).contains("bias_rel_mse"));
+  EXPECT_EQ(compare(r1, test, {"--halves", r2}).exit_code, 1);
+  const Output sizes = compare(r1, test, {"--halves", r2, picture("n.exr", 1, 2, 2.0f)});
   expect_failure(sizes, 2, {"n.exr"});
 }
 
@@ -148,66 +144,54 @@ TEST_F(CompareCommand, HalvesWithEqualSeedsGiveAWarning) {
   const std::string r1 = half("r1.exr", "7"), r2 = half("r2.exr", "8");
   const std::string t1 = half("t1.exr", "7"), t2 = half("t2.exr", "8");
   // A reference and a test may have the same seed.
-  const Output good = expect_done(run_gatelight({"compare", r1, t1, "--halves", r2, t2}));
+  const Output good = expect_done(compare(r1, t1, {"--halves", r2, t2}));
   EXPECT_EQ(good.err, "");
-  const Output references = expect_done(run_gatelight({"compare", r1, r2, "--halves", t1, t2}));
+  const Output references = expect_done(compare(r1, r2, {"--halves", t1, t2}));
   expect_messages(references.error_lines(), {{"r1.exr", "t1.exr", "7"}, {"r2.exr", "t2.exr", "8"}});
 }
 
 TEST_F(CompareCommand, ErrorMapIsAPictureOfTheSameSize) {
   const std::string reference = picture("r.exr", 5, 3, 1.0f);
   const std::string test = picture("t.exr", 5, 3, 9.0f);
-  expect_done(
-      run_gatelight_inside({"compare", reference, test, "--error-map", path("e.png"), "--map", "relative"}));
+  expect_done(compare(reference, test, {"--error-map", path("e.png"), "--map", "relative"}));
   const renderer::Picture relative = renderer::read_image(path("e.png"));
   EXPECT_EQ(relative.width, 5);
   EXPECT_EQ(relative.height, 3);
   EXPECT_EQ(relative.layers[0].values, std::vector<float>(45, 1.0f));
   // Both are shown white, but not at the exposures of HDR-FLIP. The first colour of the map has no red.
   const auto red = [&](const std::vector<std::string>& flags) {
-    std::vector<std::string> arguments = {"compare", reference,     test,         "--metric",
-                                          "mse",     "--error-map", path("f.png")};
-    arguments.insert(arguments.end(), flags.begin(), flags.end());
-    expect_done(run_gatelight_inside(arguments));
+    expect_done(compare(reference, test, words_of("--metric mse --error-map {}", {path("f.png")}, flags)));
     const renderer::Picture map = renderer::read_image(path("f.png"));
     EXPECT_EQ(map.width * map.height, 15);
     return map.layers[0].values.front();
   };
   EXPECT_EQ(red({}), 0.0f);
   EXPECT_GT(red({"--map", "hdr_flip"}), 0.01f);
-  EXPECT_EQ(run_gatelight_inside({"compare", reference, test, "--error-map", path("e.exr")}).exit_code, 1);
-  EXPECT_EQ(run_gatelight_inside({"compare", reference, test, "--error-map", path("no/e.png")}).exit_code, 3);
+  EXPECT_EQ(compare(reference, test, {"--error-map", path("e.exr")}).exit_code, 1);
+  EXPECT_EQ(compare(reference, test, {"--error-map", path("no/e.png")}).exit_code, 3);
 }
 
 TEST_F(CompareCommand, UnusablePicturesAreCode2) {
   const std::string reference = picture("r.exr", 2, 2, 1.0f);
-  const Output sizes = run_gatelight_inside({"compare", reference, picture("t.exr", 2, 3, 1.0f)});
-  expect_failure(sizes, 2, {"r.exr", "t.exr", "2x3"});
+  expect_failure(compare(reference, picture("t.exr", 2, 3, 1.0f)), 2, {"r.exr", "t.exr", "2x3"});
   EXPECT_EQ(sizes.out, "");
   renderer::Picture grey{.width = 2, .height = 2};
   grey.layers = {{.channels = {"Y"}, .values = std::vector<float>(4, 1.0f)}};
   renderer::write_image(grey, folder / "grey.exr", {.exr_float = true});
-  const Output channels = run_gatelight_inside({"compare", reference, path("grey.exr")});
-  expect_failure(channels, 2, {"grey.exr", "r.exr"});
-  const Output missing = run_gatelight_inside({"compare", reference, path("missing.exr")});
-  expect_failure(missing, 2, {"missing.exr"});
+  expect_failure(compare(reference, path("grey.exr")), 2, {"grey.exr", "r.exr"});
+  expect_failure(compare(reference, path("missing.exr")), 2, {"missing.exr"});
   folder.write("broken.png", "no picture");
-  EXPECT_EQ(run_gatelight_inside({"compare", reference, path("broken.png")}).exit_code, 2);
+  EXPECT_EQ(compare(reference, path("broken.png")).exit_code, 2);
 }
 
 TEST_F(CompareCommand, NonFinitePixelsAreRefusedWithTheirCounts) {
   const std::string reference = picture("r.exr", 12, 11, 1.0f);
   const std::string test = picture("t.exr", 12, 11, std::nanf(""));
-  const std::vector<std::vector<std::string>> calls = {{},
-                                                       {"--metric", "hdr_flip"},
-                                                       {"--metric", "ssim"},
-                                                       {"--metric", "mse,flip"},
-                                                       {"--metric", "mse", "--error-map", path("e.png")}};
-  for (const std::vector<std::string>& flags : calls) {
+  for (const char* flags :
+       {"", "--metric hdr_flip", "--metric ssim", "--metric mse,flip", "--metric mse --error-map {}"}) {
     for (const auto& [first, second] : {std::pair(reference, test), std::pair(test, reference)}) {
-      std::vector<std::string> arguments = {"compare", first, second, "--json", path("o.json")};
-      arguments.insert(arguments.end(), flags.begin(), flags.end());
-      const Output output = run_gatelight_inside(arguments);
+      const Words more = words_of(flags, std::string(flags).ends_with("{}") ? Words{path("e.png")} : Words());
+      const Output output = compare(first, second, words_of("--json {}", {path("o.json")}, more));
       expect_failure(output, 2, {"132", test, "0", reference, "--metric mse,rel_mse,psnr,mean,max"});
       EXPECT_EQ(output.out, "");
     }
@@ -222,9 +206,9 @@ TEST_F(CompareCommand, MeansByNameLeaveNonFinitePixelsOutAndCountThem) {
   half.layers = {{.channels = {"R", "G", "B"}, .values = {1, 1, 1, 1, std::nanf(""), 1}}};
   renderer::write_image(half, folder / "t.exr", {.exr_float = true});
   const std::string test = path("t.exr");
-  const Output output =
-      expect_done(run_gatelight_inside({"compare", reference, test, "--metric", "mse,rel_mse,psnr,mean,max",
-                                        "--json", "-", "--error-map", path("e.png"), "--map", "relative"}));
+  const Output output = expect_done(compare(reference, test,
+                                            {"--metric", "mse,rel_mse,psnr,mean,max", "--json", "-",
+                                             "--error-map", path("e.png"), "--map", "relative"}));
   expect_messages(output.error_lines(), {{"1", test}});
   EXPECT_EQ(json::parse(output.out)["nonfinite"]["test"], 1);
   EXPECT_EQ(json::parse(output.out)["pixels"], 1);
@@ -234,8 +218,7 @@ TEST_F(CompareCommand, MeansByNameLeaveNonFinitePixelsOutAndCountThem) {
 TEST_F(CompareCommand, PicturesWithoutAFinitePixelAreRefused) {
   const std::string reference = picture("r.exr", 2, 1, 1.0f);
   const std::string test = picture("t.exr", 2, 1, std::nanf(""));
-  const Output output = run_gatelight_inside({"compare", reference, test, "--metric", "mse"});
-  expect_failure(output, 2, {"2", test});
+  expect_failure(compare(reference, test, {"--metric", "mse"}), 2, {"2", test});
   EXPECT_EQ(output.out, "");
 }
 
@@ -244,13 +227,12 @@ TEST_F(CompareCommand, ResultsDoNotReplaceTheComparedFiles) {
   const std::string test = picture("t.exr", 2, 1, 1.0f);
   for (const std::string& file : {reference, test}) {
     const std::string before = read_file(file);
-    const Output output = run_gatelight_inside({"compare", reference, test, "--json", file});
+    const Output output = compare(reference, test, {"--json", file});
     expect_failure(output, 1, {"--json", file});
     EXPECT_EQ(read_file(file), before);
   }
   const std::string map = path("e.png");
-  EXPECT_EQ(run_gatelight_inside({"compare", reference, test, "--error-map", map, "--json", map}).exit_code,
-            1);
+  EXPECT_EQ(compare(reference, test, {"--error-map", map, "--json", map}).exit_code, 1);
 }
 
 }  // namespace

@@ -24,6 +24,13 @@ using ::testing::Not;
 
 class InfoCommand : public FolderTest {
  protected:
+  static Output info(const std::string& file, const Words& more = {}) {
+    return run_gatelight_inside(words_of("info {}", {file}, more));
+  }
+  static json json_of(const std::string& file) {
+    return json::parse(expect_done(info(file, {"--json", "-"})).out);
+  }
+
   /// A light of each type and a camera of each type, three metres along x.
   std::string lit_scene() const {
     json file = json::parse(tiny_scene());
@@ -57,22 +64,20 @@ class InfoCommand : public FolderTest {
 
 TEST_F(InfoCommand, ReportsWhichOfOverlappingBodiesFillsTheSpace) {
   const std::string scene = std::string(GATELIGHT_SOURCE_DIR) + "/data/iced-water.glb";
-  const json media = json::parse(run_gatelight({"info", scene, "--json", "-"}).out)["nested_media"];
+  const json media = json_of(scene)["nested_media"];
   std::vector<std::string> names;
   for (const json& medium : media) names.push_back(medium["name"]);
   EXPECT_EQ(names, (std::vector<std::string>{"glass", "bubble 0", "bubble 1", "bubble 2", "ice 0", "ice 1",
                                              "ice 2", "water"}));
   EXPECT_EQ(media[0]["priority"], 1.0);
   EXPECT_EQ(media[7]["ior"], 1.333);
-  EXPECT_THAT(run_gatelight({"info", scene}).out,
-              AllOf(HasSubstr("nested media"), HasSubstr("'ice 1', ior 1.31")));
-  EXPECT_EQ(json::parse(run_gatelight({"info", lit_scene(), "--json", "-"}).out)["nested_media"],
-            json::array());
+  EXPECT_THAT(info(scene).out, AllOf(HasSubstr("nested media"), HasSubstr("'ice 1', ior 1.31")));
+  EXPECT_EQ(json_of(lit_scene())["nested_media"], json::array());
 }
 
 TEST_F(InfoCommand, JsonHasLightsWithTheirUnitsAndPlaces) {
-  const json info = json::parse(run_gatelight({"info", lit_scene(), "--json", "-"}).out);
-  const json& lights = info["lights"];
+  const json description = json_of(lit_scene());
+  const json& lights = description["lights"];
   ASSERT_EQ(lights.size(), 3u);
   EXPECT_EQ(lights[0]["name"], "lamp");
   EXPECT_EQ(lights[0]["intensity"], json({8.0, 4.0, 2.0}));
@@ -90,8 +95,8 @@ TEST_F(InfoCommand, JsonHasLightsWithTheirUnitsAndPlaces) {
 }
 
 TEST_F(InfoCommand, JsonHasCamerasWithTheirTransforms) {
-  const json info = json::parse(run_gatelight({"info", lit_scene(), "--json", "-"}).out);
-  const json& cameras = info["cameras"];
+  const json description = json_of(lit_scene());
+  const json& cameras = description["cameras"];
   ASSERT_EQ(cameras.size(), 2u);
   EXPECT_NEAR(cameras[0]["vertical_fov_degrees"].get<double>(), 51.5662, 1e-3);
   EXPECT_EQ(cameras[0]["node"], "front");
@@ -106,26 +111,24 @@ TEST_F(InfoCommand, JsonHasCamerasWithTheirTransforms) {
 }
 
 TEST_F(InfoCommand, TextHasTheUnitsOfLights) {
-  const Output text = run_gatelight_inside({"info", lit_scene()});
+  const Output text = info(lit_scene());
   EXPECT_THAT(text.out, AllOf(HasSubstr("point 'lamp', intensity 8 4 2 W/sr\n"),
                               HasSubstr("directional 'sun', intensity 8 4 2 W/m2\n"), HasSubstr("candela"),
                               HasSubstr("'plan', node 'above', orthographic, 3 m high")));
-  EXPECT_THAT(run_gatelight_inside({"info", folder.write("dark.gltf", tiny_scene())}).out,
-              Not(HasSubstr("candela")));
+  EXPECT_THAT(info(folder.write("dark.gltf", tiny_scene())).out, Not(HasSubstr("candela")));
 }
 
 TEST_F(InfoCommand, AnimationsHaveNamesAndLengths) {
   const std::string figure = GATELIGHT_SOURCE_DIR "/data/figure.glb";
-  EXPECT_THAT(run_gatelight_inside({"info", figure}).out, HasSubstr("0 'walk', 1 s\n"));
-  const json info = json::parse(run_gatelight_inside({"info", figure, "--json", "-"}).out);
-  EXPECT_EQ(info["animations"], json::parse(R"([{"name": "walk", "seconds": 1.0}])"));
-  EXPECT_TRUE(
-      json::parse(run_gatelight_inside({"info", lit_scene(), "--json", "-"}).out)["animations"].empty());
+  EXPECT_THAT(info(figure).out, HasSubstr("0 'walk', 1 s\n"));
+  const json description = json_of(figure);
+  EXPECT_EQ(description["animations"], json::parse(R"([{"name": "walk", "seconds": 1.0}])"));
+  EXPECT_TRUE(json_of(lit_scene())["animations"].empty());
 }
 
 TEST_F(InfoCommand, APictureShowsItsRecipe) {
   const std::string picture = rendered({"--region", "2,1,6,3"});
-  const Output text = expect_done(run_gatelight_inside({"info", picture}));
+  const Output text = expect_done(info(picture));
   EXPECT_THAT(text.out, ::testing::ContainsRegex("\nsize +4 x 2 at 2, 1 of 8 x 4\n"));
   EXPECT_THAT(text.out, ::testing::ContainsRegex("\nlayers +beauty [(]R,G,B[)]\n +depth [(]Z[)]\n"));
   EXPECT_THAT(text.out, ::testing::ContainsRegex("\nspp +2\n"));
@@ -133,7 +136,7 @@ TEST_F(InfoCommand, APictureShowsItsRecipe) {
   EXPECT_THAT(text.out, ::testing::ContainsRegex("\n--aov +depth\n"));
   EXPECT_THAT(text.out, ::testing::ContainsRegex("\n--size +8x4\n"));
   EXPECT_THAT(text.out, Not(HasSubstr("--variant"))) << "it has no value";
-  const json description = json::parse(run_gatelight_inside({"info", picture, "--json", "-"}).out);
+  const json description = json_of(picture);
   EXPECT_EQ(description["width"], 4);
   EXPECT_EQ(description["full_width"], 8);
   EXPECT_EQ(description["layers"][1]["name"], "depth");
@@ -144,7 +147,7 @@ TEST_F(InfoCommand, APictureShowsItsRecipe) {
 
 TEST_F(InfoCommand, TheCommandOfAPictureReproducesIt) {
   const std::string picture = rendered();
-  const Output description = expect_done(run_gatelight_inside({"info", picture, "--command"}));
+  const Output description = expect_done(info(picture, {"--command"}));
   EXPECT_EQ(std::count(description.out.begin(), description.out.end(), '\n'), 1);
   EXPECT_THAT(description.out, HasSubstr(R"(it'\''s a scene.gltf')"));
   const std::string before = read_file(picture);
@@ -157,20 +160,19 @@ TEST_F(InfoCommand, APictureWithoutARecipeIsRefused) {
   renderer::Picture plain{
       .width = 1, .height = 1, .layers = {{.name = "", .channels = {"R", "G", "B"}, .values = {1, 1, 1}}}};
   renderer::write_image(plain, path("plain.exr"), {});
-  expect_failure(run_gatelight_inside({"info", path("plain.exr")}), 2, {path("plain.exr"), "recipe"});
-  expect_failure(run_gatelight_inside({"info", path("plain.png")}), 2, {path("plain.png"), "recipe"});
-  expect_failure(run_gatelight_inside({"info", path("none.exr")}), 2, {path("none.exr")});
+  expect_failure(info(path("plain.exr")), 2, {path("plain.exr"), "recipe"});
+  expect_failure(info(path("plain.png")), 2, {path("plain.png"), "recipe"});
+  expect_failure(info(path("none.exr")), 2, {path("none.exr")});
   const std::string silent = rendered({"--reproducible"});
-  expect_failure(run_gatelight_inside({"info", silent, "--command"}), 2, {silent, "--reproducible"});
-  expect_done(run_gatelight_inside({"info", silent}));
+  expect_failure(info(silent, {"--command"}), 2, {silent, "--reproducible"});
+  expect_done(info(silent));
 }
 
 TEST_F(InfoCommand, FlagsOfPicturesAreRefusedForScenesAndViceVersa) {
   const std::string scene = folder.write("scene.gltf", tiny_scene());
-  expect_failure(run_gatelight_inside({"info", scene, "--command"}), 1, {"--command", "PICTURE.exr"});
-  expect_failure(run_gatelight_inside({"info", "--command"}), 1, {"--command", "PICTURE.exr"});
-  expect_failure(run_gatelight_inside({"info", path("a.exr"), "--camera", "front"}), 1,
-                 {"--camera", path("a.exr")});
+  expect_failure(info(scene, {"--command"}), 1, {"--command", "PICTURE.exr"});
+  expect_failure(info("--command"), 1, {"--command", "PICTURE.exr"});
+  expect_failure(info(path("a.exr"), {"--camera", "front"}), 1, {"--camera", path("a.exr")});
 }
 
 }  // namespace

@@ -10,15 +10,13 @@ namespace {
 
 void import_cache(const std::filesystem::path& path) {
   const MadeCache& made = made_cache();
-  try {
+  read_or_refuse<CacheFileError>([&] {
     renderer::CacheFile file(path);
     file.expect({made.options, made.options.ao_distance}, kFingerprint, made.instances);
     const auto model = made.model(file.setup());
     file.expect_model(*model, made.training());
     made.use(model, file.read_state(*model, made.training()));
-  } catch (const CacheFileError& error) {
-    check_line(error.what());
-  }
+  });
 }
 
 }  // namespace

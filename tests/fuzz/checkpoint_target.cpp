@@ -15,7 +15,7 @@ constexpr int kSamples = 8;
 
 void resume_from(const std::filesystem::path& path) {
   const MadeCache& made = made_cache();
-  try {
+  read_or_refuse<CacheFileError>([&] {
     renderer::Checkpoint checkpoint(path);
     checkpoint.expect(made_identity(), kSamples);
     renderer::Film film = made_film();
@@ -29,9 +29,7 @@ void resume_from(const std::filesystem::path& path) {
     const auto model = made.model(checkpoint.cache_setup());
     checkpoint.expect_model(*model, made.training());
     made.use(model, checkpoint.read_cache(*model, made.training()));
-  } catch (const CacheFileError& error) {
-    check_line(error.what());
-  }
+  });
 }
 
 }  // namespace

@@ -14,15 +14,13 @@ namespace gatelight::fuzz {
 namespace {
 
 void load(const std::filesystem::path& path) {
-  try {
+  read_or_refuse<InputError>([&] {
     // Another target tests pictures: unreadable ones are allowed here, so that the code behind them runs too.
     const scene::Scene scene = scene::load_gltf(path, {.time = 0.5, .missing_is_error = false});
     const std::string fault = scene::scene_fault(scene);
     if (!fault.empty()) throw Violation(fault);
     scene::compute_requirements(scene);
-  } catch (const InputError& error) {
-    check_line(error.what());
-  }
+  });
 }
 
 }  // namespace

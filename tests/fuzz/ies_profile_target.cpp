@@ -10,7 +10,7 @@
 namespace gatelight::fuzz {
 
 void ies_profile(Bytes bytes) {
-  try {
+  read_or_refuse<InputError>([&] {
     const scene::IesProfile profile(
         std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
     if (!(profile.greatest() > 0.0) || !(profile.extent() >= 0.0f && profile.extent() <= kPi))
@@ -21,9 +21,7 @@ void ies_profile(Bytes bytes) {
           profile.relative({std::cos(angle), std::sin(2.0f * angle), std::sin(3.0f * angle) + 0.1f});
       if (!(share >= 0.0f && share <= 1.0001f)) throw Violation("a share outside 0 to 1");
     }
-  } catch (const InputError& error) {
-    check_line(error.what());
-  }
+  });
 }
 
 }  // namespace gatelight::fuzz

@@ -40,4 +40,14 @@ inline void check_line(const std::string& message) {
   }
 }
 
+/// Runs what may refuse the input with such an error.
+template <class Refusal, class Act>
+void read_or_refuse(const Act& act) {
+  try {
+    act();
+  } catch (const Refusal& error) {
+    check_line(error.what());
+  }
+}
+
 }  // namespace gatelight::fuzz

@@ -36,16 +36,14 @@ void choose_and_edit(const renderer::Picture& picture, const std::filesystem::pa
   std::erase_if(denoised.layers, [&](const auto& layer) {
     return layers.front().own && renderer::is_denoising_layer(layer.name);
   });
-  try {
+  read_or_refuse<OutputError>([&] {
     renderer::encode_image(denoised, renderer::ImageFormat::exr,
                            {.edited = renderer::edited_exr(path, denoised, layers)});
-  } catch (const OutputError& error) {
-    check_line(error.what());
-  }
+  });
 }
 
 void read_picture(const std::filesystem::path& path) {
-  try {
+  read_or_refuse<InputError>([&] {
     const renderer::Picture picture = renderer::read_image(path);
     if (picture.width < 1 || picture.height < 1 || picture.layers.empty())
       throw Violation("an empty picture");
@@ -62,9 +60,7 @@ void read_picture(const std::filesystem::path& path) {
     const renderer::EnvironmentSample sample = environment.sample({0.3f, 0.7f});
     if (!mean.allFinite() || !sample.radiance.allFinite() || !(sample.pdf >= 0.0f))
       throw Violation("an environment that is not finite");
-  } catch (const InputError& error) {
-    check_line(error.what());
-  }
+  });
 }
 
 /// A triangle with the picture on it.
@@ -90,12 +86,10 @@ std::vector<std::uint8_t> textured(Bytes picture) {
 void read_texture(Bytes picture) {
   static const InputFile file("scene.glb");
   if (picture.empty()) return;
-  try {
+  read_or_refuse<InputError>([&] {
     const std::string fault = scene::scene_fault(scene::load_gltf(file.write(textured(picture))));
     if (!fault.empty()) throw Violation(fault);
-  } catch (const InputError& error) {
-    check_line(error.what());
-  }
+  });
 }
 
 }  // namespace

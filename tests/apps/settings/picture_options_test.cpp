@@ -10,6 +10,7 @@
 #include "base/errors.h"
 #include "renderer/fingerprint/deciding_options.h"
 #include "renderer/settings/presets.h"
+#include "tests/support/words.h"
 
 namespace gatelight::apps {
 namespace {
@@ -62,6 +63,15 @@ bool reads(const Option& option, const std::string& word) {
   }
 }
 
+/// Gives the option another value. False where none of the words is one.
+bool change(const Option& option) {
+  const OptionValue before = option.value();
+  const std::vector<std::string> words = words_for(option);
+  return std::any_of(words.begin(), words.end(), [&](const std::string& word) {
+    return reads(option, word) && option.value() != before;
+  });
+}
+
 /// Whether the option describes the features of the encoding gate. The others that need it decide how steps
 /// are made, and are compared with any encoding.
 bool is_of_gate(const Option& option, const RenderOptions& options) {
@@ -112,16 +122,10 @@ TEST(OptionTable, EachSetsItsMemberAndNoOther) {
     const Option& option = table[i];
     if (!option.read) continue;
     const std::map<std::string, OptionValue> before = values_of(table);
-    bool changed = false;
-    for (const std::string& word : words_for(option)) {
-      if (!reads(option, word) || option.value() == before.at(option.name)) continue;
-      changed = true;
-      const OptionValue read = option.value();
-      option.read(option.text());
-      EXPECT_EQ(option.value(), read) << option.name << " " << word;
-      break;
-    }
-    EXPECT_TRUE(changed) << option.name;
+    EXPECT_TRUE(change(option)) << option.name;
+    const OptionValue read = option.value();
+    option.read(option.text());
+    EXPECT_EQ(option.value(), read) << option.name;
     for (const auto& [name, value] : values_of(table))
       EXPECT_TRUE(name == option.name || value == before.at(name)) << option.name << " sets " << name;
   }
@@ -129,32 +133,11 @@ TEST(OptionTable, EachSetsItsMemberAndNoOther) {
 
 /// Options that decide no bits, or that the scene's fingerprint, the chosen camera and the instruction sets
 /// stand for.
-const std::set<std::string> kDecideNothing = {"checkpoint",
-                                              "checkpoint-every",
-                                              "cache-out",
-                                              "spp",
-                                              "time-limit",
-                                              "max-error",
-                                              "oidn",
-                                              "cryptomatte",
-                                              "camera",
-                                              "fov",
-                                              "lens",
-                                              "projection",
-                                              "view-height",
-                                              "aperture",
-                                              "focus",
-                                              "blades",
-                                              "environment",
-                                              "sky",
-                                              "environment-rotation",
-                                              "environment-scale",
-                                              "nan",
-                                              "temporal",
-                                              "train-time",
-                                              "threads",
-                                              "memory-limit",
-                                              "isa"};
+const tests::Words kDecideNothing = tests::words_of(
+    "checkpoint checkpoint-every cache-out spp time-limit max-error oidn cryptomatte camera fov lens "
+    "projection "
+    "view-height aperture focus blades environment sky environment-rotation environment-scale nan temporal "
+    "train-time threads memory-limit isa");
 
 TEST(OptionTable, EachOtherDecidesBits) {
   RenderOptions defaults = said();
@@ -168,17 +151,12 @@ TEST(OptionTable, EachOtherDecidesBits) {
       const std::vector<Option> table = picture_options(options);
       const Option& option = table[i];
       if (!option.read) continue;
-      const OptionValue value = option.value();
-      bool changed = false;
-      for (const std::string& word : words_for(option)) {
-        if (!reads(option, word) || option.value() == value) continue;
-        changed = true;
-        break;
-      }
-      ASSERT_TRUE(changed) << option.name;
+      ASSERT_TRUE(change(option)) << option.name;
       const bool of_other = encoding == neural::FeatureEncoding::gate ? option.name.starts_with("hash-")
                                                                       : is_of_gate(option, options);
-      const bool decides = !kDecideNothing.contains(option.name) && !of_other;
+      const bool decides =
+          std::find(kDecideNothing.begin(), kDecideNothing.end(), option.name) == kDecideNothing.end() &&
+          !of_other;
       EXPECT_EQ(deciding_options(options, {}, {}) != before, decides) << option.name;
     }
   }

@@ -20,11 +20,9 @@ using ::testing::ElementsAre;
 using tests::TemporaryFolder;
 
 TEST(PresetFlags, EveryFlagOverridesThemInAnyOrder) {
-  const Words flags = {"--spp",        "3", "--size", "64x32", "--query-at", "gather",
-                       "--candidates", "2", "--aov",  "all"};
+  const Words flags = words_of("--spp 3 --size 64x32 --query-at gather --candidates 2 --aov all");
   // The paper's view is the bare answer, where gathering has no effect.
-  Words before = {"--preset", "paper-nrc", "--view", "final"};
-  before.insert(before.end(), flags.begin(), flags.end());
+  const Words before = words_of("--preset paper-nrc --view final", {}, flags);
   Words after = flags;
   after.insert(after.end(), {"--view", "final", "--preset", "paper-nrc"});
   const RenderSettings first = read_flags(before);
@@ -85,25 +83,18 @@ TEST(PresetFlags, ChooseTheIntegratorUnlessItIsGiven) {
 }
 
 TEST(Recipe, CanBePassedBackAsFlags) {
-  const std::vector<Words> cases = {
-      {"--size",        "64x32",      "--region",      "1,2,3,4", "--spp", "3",
-       "--seed",        "4294967295", "--aov",         "all",     "--eye", "1,-2.5,3",
-       "--target",      "0,0.1,0",    "--environment", "0.1,2,3", "--fov", "30.1",
-       "--ao-distance", "inf",        "--exposure",    "-1.5",    "--exr", "float",
-       "--scene-index", "-1",         "--missing",     "warn"},
-      {"--camera", "front", "--environment", "sky.exr", "--time-limit", "0.5", "--checkpoint", "c"},
-      {"--integrator", "nrc"},
-      {"--preset", "paper-nao"},
-      {"--preset", "paper-nrc", "--encoding", "hashgrid", "--cache-memory", "0.1"},
-      {"--preset", "paper-nao", "--encoding", "hashgrid"},
-      {"--integrator", "nrc", "--view", "cache"},
-      {"--integrator", "nrc", "--query-at", "spread"},
-      {"--preset", "preview", "--node-spacing", "0.1", "--self-training", "off", "--train-steps", "12"},
-      {"--integrator", "nao", "--resolution", "fixed:3", "--stack", "adaptive,adaptive/3,2", "--average",
-       "off", "--query-precision", "bf16", "--learning-rate", "0.003", "--cache-in", "i"},
-  };
-  for (const Words& words : cases) {
-    RenderSettings settings = read_flags(words);
+  for (const char* flags :
+       {"--size 64x32 --region 1,2,3,4 --spp 3 --seed 4294967295 --aov all --eye 1,-2.5,3 --target 0,0.1,0 "
+        "--environment 0.1,2,3 --fov 30.1 --ao-distance inf --exposure -1.5 --exr float --scene-index -1 "
+        "--missing warn",
+        "--camera front --environment sky.exr --time-limit 0.5 --checkpoint c", "--integrator nrc",
+        "--preset paper-nao", "--preset paper-nrc --encoding hashgrid --cache-memory 0.1",
+        "--preset paper-nao --encoding hashgrid", "--integrator nrc --view cache",
+        "--integrator nrc --query-at spread",
+        "--preset preview --node-spacing 0.1 --self-training off --train-steps 12",
+        "--integrator nao --resolution fixed:3 --stack adaptive,adaptive/3,2 --average off "
+        "--query-precision bf16 --learning-rate 0.003 --cache-in i"}) {
+    RenderSettings settings = read_flags(words_of(flags));
     settings.preset.reset();
     const ordered_json options = resolved_options(settings);
     Words again;
