@@ -1,4 +1,4 @@
-// Frames: one and ten thousand, times without keys, joints that collapse, vertices that leave the scene.
+// Frames: one and ten thousand, joints that collapse, vertices that leave the scene.
 
 #include <gtest/gtest.h>
 
@@ -77,25 +77,6 @@ TEST(FramesAtExtremes, OneAndTenThousand) {
   for (int i = 1; i < kFrames; ++i) ASSERT_TRUE(all_finite(player.frame(i, i / 24.0)));
   EXPECT_LT(resident_mebibytes() - before, 20.0);
   EXPECT_EQ(player.frame(0, 0.0).layers.front().values, first.layers.front().values);
-}
-
-TEST(FramesAtExtremes, TimesWithoutKeys) {
-  Player player(going_triangle());
-  const auto place = [&](double seconds) {
-    EXPECT_TRUE(all_finite(player.frame(0, seconds)));
-    return player.scene.instances.at(0).transform.translation().x();
-  };
-  EXPECT_EQ(place(-1e9), 0.0f);
-  EXPECT_EQ(place(1e9), 1.0f);
-  EXPECT_EQ(place(0.5), 0.5f) << "backwards";
-  EXPECT_EQ(place(-0.25), 0.0f);
-  AnimatedFile still = moving_triangle();
-  still.move(0, "translation", {still.seconds({0}), still.vectors({3, 0, 0})});
-  Player of_no_time(still);
-  for (const double seconds : {-1.0, 0.0, 7.0}) {
-    EXPECT_TRUE(all_finite(of_no_time.frame(1, seconds)));
-    EXPECT_EQ(of_no_time.scene.instances.at(0).transform.translation().x(), 3.0f);
-  }
 }
 
 TEST(FramesAtExtremes, JointsThatCollapse) {
