@@ -10,6 +10,7 @@
 
 #include "renderer/image/image_read.h"
 #include "tests/support/folder_test.h"
+#include "tests/support/picture_files.h"
 #include "tests/support/process.h"
 #include "tests/support/temporary_folder.h"
 
@@ -73,11 +74,11 @@ TEST_F(CacheCommand, ALoadedCacheIsKeptWhereMoreTrainingDiverges) {
               "--cache-out", path("c.safetensors"), "-o", path("c.exr"), "--stats", path("c.json")});
   EXPECT_EQ(output.exit_code, 6) << output.err;
   expect_message(output.last_error_line(), {"cornell-box.glb", "--learning-rate"});
-  EXPECT_EQ(read_image(path("c.exr")).layers[0].values, read_image(path("b.exr")).layers[0].values);
+  EXPECT_EQ(beauty_of(path("c.exr")), beauty_of(path("b.exr")));
   EXPECT_TRUE(json::parse(read_file(path("c.json")))["train"].contains("diverged"));
   expect_done(render({"--integrator", "nrc", "--cache-in", path("c.safetensors"), "--train-steps", "0", "-o",
                       path("d.exr")}));
-  EXPECT_EQ(read_image(path("d.exr")).layers[0].values, read_image(path("b.exr")).layers[0].values);
+  EXPECT_EQ(beauty_of(path("d.exr")), beauty_of(path("b.exr")));
 }
 
 TEST_F(CacheCommand, BothIntegratorsRenderAndFillTheStatistics) {
@@ -133,7 +134,7 @@ TEST_F(CacheCommand, TheSeedChangesTheTraining) {
   for (const char* seed : {"0", "1"})
     expect_done(render(words_of("--integrator nao --quiet --exr float --seed {} -o {}",
                                 {seed, path(std::string(seed) + ".exr")})));
-  EXPECT_NE(read_image(path("0.exr")).layers[0].values, read_image(path("1.exr")).layers[0].values);
+  EXPECT_NE(beauty_of(path("0.exr")), beauty_of(path("1.exr")));
 }
 
 TEST_F(CacheCommand, EveryPresetRendersWithEitherEncoding) {
@@ -181,7 +182,7 @@ TEST_F(CacheCommand, ASavedCacheAnswersAsTheOneThatWasTrained) {
       render(words_of("--integrator nrc --quiet --exr float -o {} --cache-out {}", {path("a.exr"), file})));
   expect_done(render(words_of("--integrator nrc --quiet --exr float -o {} --cache-in {} --train-steps 0",
                               {path("b.exr"), file})));
-  EXPECT_EQ(read_image(path("a.exr")).layers[0].values, read_image(path("b.exr")).layers[0].values);
+  EXPECT_EQ(beauty_of(path("a.exr")), beauty_of(path("b.exr")));
   const json other_view = statistics(
       {"--integrator", "nrc", "--cache-in", path("c.safetensors"), "--train-steps", "3", "--fov", "20"});
   EXPECT_EQ(other_view["train"]["steps"], 3);

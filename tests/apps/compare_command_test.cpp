@@ -8,6 +8,7 @@
 #include "renderer/image/image_read.h"
 #include "renderer/image/image_write.h"
 #include "tests/support/folder_test.h"
+#include "tests/support/picture_files.h"
 #include "tests/support/process.h"
 #include "tests/support/temporary_folder.h"
 
@@ -23,11 +24,7 @@ class CompareCommand : public FolderTest {
  protected:
   std::string picture(const std::string& name, int width, int height, float value,
                       std::map<std::string, std::string> metadata = {}) const {
-    renderer::Picture picture{.width = width, .height = height, .metadata = std::move(metadata)};
-    picture.layers = {{.channels = {"R", "G", "B"},
-                       .values = std::vector<float>(static_cast<std::size_t>(3 * width * height), value)}};
-    renderer::write_image(picture, folder / name, {.exr_float = true});
-    return path(name);
+    return write_even(path(name), width, height, value, std::move(metadata));
   }
   static Output compare(const std::string& reference, const std::string& test, const Words& more = {}) {
     return run_gatelight_inside(words_of("compare {} {}", {reference, test}, more));
@@ -88,7 +85,7 @@ TEST_F(CompareCommand, SsimIsPrintedAndWrittenWhereItsWindowFits) {
   const std::string black = picture("b.exr", 12, 11, 0.0f);
   const std::string white = picture("w.exr", 12, 11, 4.0f);
   EXPECT_THAT(compare(black, white).out, HasSubstr("ssim             9.999e-05\n"));
-  const auto ssim = [&](const std::vector<std::string>& flags) {
+  const auto ssim = [&](const Words& flags) {
     return results(black, white, words_of("--metric ssim", {}, flags))["ssim"];
   };
   EXPECT_NEAR(ssim({})["mean"], 1e-4 / 1.0001, 1e-9);
@@ -108,7 +105,7 @@ TEST_F(CompareCommand, SsimIsPrintedAndWrittenWhereItsWindowFits) {
 TEST_F(CompareCommand, FlipFollowsExposureCurveAndPixelsPerDegree) {
   const std::string reference = picture("r.exr", 4, 2, 4.0f);
   const std::string test = picture("t.exr", 4, 2, 8.0f);
-  const auto flip = [&](const std::vector<std::string>& flags) {
+  const auto flip = [&](const Words& flags) {
     return results(reference, test, words_of("--metric flip", {}, flags))["flip"];
   };
   EXPECT_EQ(flip({})["mean"], 0.0) << "both are white";
@@ -159,7 +156,7 @@ TEST_F(CompareCommand, ErrorMapIsAPictureOfTheSameSize) {
   EXPECT_EQ(relative.height, 3);
   EXPECT_EQ(relative.layers[0].values, std::vector<float>(45, 1.0f));
   // Both are shown white, but not at the exposures of HDR-FLIP. The first colour of the map has no red.
-  const auto red = [&](const std::vector<std::string>& flags) {
+  const auto red = [&](const Words& flags) {
     expect_done(compare(reference, test, words_of("--metric mse --error-map {}", {path("f.png")}, flags)));
     const renderer::Picture map = renderer::read_image(path("f.png"));
     EXPECT_EQ(map.width * map.height, 15);

@@ -9,6 +9,7 @@
 #include "renderer/image/image_write.h"
 #include "renderer/image/srgb.h"
 #include "tests/support/folder_test.h"
+#include "tests/support/picture_files.h"
 #include "tests/support/process.h"
 #include "tests/support/temporary_folder.h"
 
@@ -23,10 +24,7 @@ using ::testing::Not;
 class CompareFramesCommand : public FolderTest {
  protected:
   void even(const std::string& name, float value, int width = 4) const {
-    renderer::Picture picture{.width = width, .height = 2};
-    picture.layers = {{.channels = {"R", "G", "B"},
-                       .values = std::vector<float>(static_cast<std::size_t>(6 * width), value)}};
-    renderer::write_image(picture, folder / name, {.exr_float = true});
+    write_even(path(name), width, 2, value);
   }
 
   /// Radiance 1 in the reference, and 1, 1.5, 1 and 2 in the test.
@@ -38,10 +36,8 @@ class CompareFramesCommand : public FolderTest {
     }
   }
 
-  Output compare(const std::vector<std::string>& flags) const {
-    std::vector<std::string> arguments = {"compare", reference(), test()};
-    arguments.insert(arguments.end(), flags.begin(), flags.end());
-    return run_gatelight_inside(arguments);
+  Output compare(const Words& flags) const {
+    return run_gatelight_inside(words_of("compare {} {}", {reference(), test()}, flags));
   }
 
   std::string reference() const { return path("r-%04d.exr"); }

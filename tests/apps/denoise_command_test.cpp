@@ -10,6 +10,7 @@
 #include "tests/support/denoiser.h"
 #include "tests/support/folder_test.h"
 #include "tests/support/noisy_image.h"
+#include "tests/support/picture_files.h"
 #include "tests/support/process.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/tiny_scene.h"
@@ -19,8 +20,7 @@ namespace {
 
 class DenoiseCommand : public FolderTest {
  protected:
-  std::string render(const std::string& name, const std::vector<std::string>& more = {},
-                     const std::string& seed = "1") const {
+  std::string render(const std::string& name, const Words& more = {}, const std::string& seed = "1") const {
     expect_done(run_gatelight_inside(
         words_of("render {} -o {} --size 40x32 --spp 8 --environment 1,0.9,0.8 --seed {} --quiet",
                  {folder.write("scene.gltf", tiny_scene()), path(name), seed}, more)));
@@ -28,9 +28,6 @@ class DenoiseCommand : public FolderTest {
   }
   Output denoise(const std::string& input, const std::string& output, const Words& more = {}) const {
     return run_gatelight_inside(words_of("denoise {} -o {}", {path(input), path(output)}, more));
-  }
-  static std::vector<float> beauty(const std::string& file) {
-    return renderer::read_image(file).layers[0].values;
   }
 };
 
@@ -46,7 +43,7 @@ TEST_F(DenoiseCommand, GivesTheFinishedPicture) {
         expect_done(run_gatelight({"denoise", finished, "-o", path("again.exr"), "-o", path("again.png")}));
     EXPECT_NE(output.err.find("Open Image Denoise 2."), std::string::npos) << output.err;
     const renderer::Picture again = renderer::read_image(path("again.exr"));
-    EXPECT_EQ(again.layers[0].values, beauty(finished));
+    EXPECT_EQ(again.layers[0].values, beauty_of(finished));
     EXPECT_EQ(read_file(path("again.png")), read_file(path("finished.png")));
     ASSERT_EQ(again.layers.size(), 2u) << "other layers stay";
     EXPECT_EQ(again.layers[1].name, "depth");
@@ -58,14 +55,14 @@ TEST_F(DenoiseCommand, GivesTheFinishedPicture) {
 TEST_F(DenoiseCommand, ReadsTheGuidesAsTheRecipeSays) {
   GATELIGHT_NEEDS_DENOISER();
   const std::vector<float> finished =
-      beauty(render("finished.exr", {"--denoiser", "oidn", "--prefilter", "none"}));
+      beauty_of(render("finished.exr", {"--denoiser", "oidn", "--prefilter", "none"}));
   for (const char* const denoiser : {"oidn", "none"}) {
     const std::string input =
         render("a.exr", {"--denoiser", denoiser, "--prefilter", "none", "--aov", "denoising"});
     expect_done(denoise(input, "b.exr", {"--quiet"}));
-    EXPECT_EQ(beauty(path("b.exr")), finished) << denoiser;
+    EXPECT_EQ(beauty_of(path("b.exr")), finished) << denoiser;
     expect_done(denoise(input, "b.exr", {"--quiet", "--prefilter", "accurate"}));
-    EXPECT_NE(beauty(path("b.exr")), finished) << denoiser;
+    EXPECT_NE(beauty_of(path("b.exr")), finished) << denoiser;
   }
 }
 
@@ -76,7 +73,7 @@ TEST_F(DenoiseCommand, FinishesMergedPartsOfAPicture) {
   expect_done(run_gatelight_inside({"merge", a, b, "-o", path("merged.exr")}));
   const Output output = expect_done(denoise("merged.exr", "finished.exr", {"--quiet"}));
   EXPECT_EQ(output.out + output.err, "");
-  EXPECT_NE(beauty(path("finished.exr")), beauty(path("merged.exr")));
+  EXPECT_NE(beauty_of(path("finished.exr")), beauty_of(path("merged.exr")));
   EXPECT_EQ(renderer::read_image(path("finished.exr")).metadata.at("spp"), "16");
 }
 
@@ -133,7 +130,7 @@ TEST_F(DenoiseCommand, FindsChannelsByTheirNames) {
     expect_done(run_gatelight_inside({"denoise", path(name + ".exr"), "-o", path(name + ".png"), "-o",
                                       path(name + "-out.exr"), "--quiet"}));
     EXPECT_EQ(read_file(path(name + ".png")), read_file(path("upper.png"))) << name;
-    EXPECT_EQ(beauty(path(name + "-out.exr")), beauty(path("upper-out.exr"))) << name;
+    EXPECT_EQ(beauty_of(path(name + "-out.exr")), beauty_of(path("upper-out.exr"))) << name;
   }
   EXPECT_LT(error_of(path("lower-out.exr"), ""), 0.2 * error_of(path("lower.exr"), ""));
 }
@@ -141,7 +138,7 @@ TEST_F(DenoiseCommand, FindsChannelsByTheirNames) {
 TEST_F(DenoiseCommand, OneGuideIsBetterThanNone) {
   GATELIGHT_NEEDS_DENOISER();
   const renderer::NoisyImage image = testing::noisy_image(kWidth, kHeight);
-  const auto error = [&](const NamedLayers& names, std::vector<std::string> flags = {}) {
+  const auto error = [&](const NamedLayers& names, Words flags = {}) {
     write_image(picture_of(image, names), path("a.exr"), {.exr_float = true});
     flags.insert(flags.begin(), {"denoise", path("a.exr"), "-o", path("b.exr"), "--quiet"});
     expect_done(run_gatelight_inside(flags));
@@ -210,7 +207,7 @@ TEST_F(DenoiseCommand, PutsAnotherBackgroundBehindThePicture) {
   const std::string input = render("a.exr", {"--aov", "denoising", "--background", "transparent"});
   const std::string red = render("red.exr", {"--denoiser", "oidn", "--background", "1,0,0"});
   expect_done(denoise(input, "b.exr", {"--quiet", "--background", "1,0,0"}));
-  EXPECT_EQ(beauty(path("b.exr")), beauty(red));
+  EXPECT_EQ(beauty_of(path("b.exr")), beauty_of(red));
   // Its samples have no alpha.
   const std::string raw = render("raw.exr", {"--denoiser", "oidn", "--aov", "raw", "--background", "1,0,0"});
   expect_failure(denoise(raw, "o.exr"), 2, {"raw.exr", "alpha", "--aov denoising"});

@@ -20,7 +20,7 @@ const char* const kMovingRoom = GATELIGHT_SOURCE_DIR "/data/moving-room.glb";
 
 class Film : public FolderTest {
  protected:
-  static Output render(const std::string& scene, std::vector<std::string> flags) {
+  static Output render(const std::string& scene, Words flags) {
     flags.insert(flags.begin(), {"render", scene});
     return expect_done(run_gatelight(flags));
   }

@@ -11,6 +11,7 @@
 #include "renderer/image/image_read.h"
 #include "tests/support/animated_file.h"
 #include "tests/support/folder_test.h"
+#include "tests/support/picture_files.h"
 #include "tests/support/process.h"
 
 namespace gatelight::tests {
@@ -42,17 +43,14 @@ class FilmSky : public FolderTest {
     file.write(folder, "film.glb");
   }
 
-  Output render(std::vector<std::string> flags) const {
+  Output render(Words flags) const {
     flags.insert(flags.begin(),
                  {"render", path("film.glb"), "--size", "24x16", "--spp", "4", "--integrator", "path"});
     return expect_done(run_gatelight(flags));
   }
 
-  std::vector<float> colors_of(const std::string& file) const {
-    return renderer::read_image(path(file)).layers.front().values;
-  }
   float brightest(const std::string& file) const {
-    const std::vector<float> values = colors_of(file);
+    const std::vector<float> values = beauty_of(path(file));
     return *std::max_element(values.begin(), values.end());
   }
 
@@ -74,13 +72,13 @@ TEST_F(FilmSky, IsThatOfTheWholeFilmInAnyPartOfIt) {
   write(false);
   EXPECT_EQ(skies_in(render({"--frames", "0:24:12", "-o", path("c-%d.exr")})), 1) << "one line for all";
   EXPECT_EQ(skies_in(render({"--frames", "24", "-o", path("d-%d.exr")})), 1);
-  EXPECT_EQ(colors_of("c-24.exr"), colors_of("d-24.exr"));
+  EXPECT_EQ(beauty_of(path("c-24.exr")), beauty_of(path("d-24.exr")));
 }
 
 TEST_F(FilmSky, OfTheWindowIsThatOfRender) {
   using namespace apps;
   write(false);
-  const std::vector<std::string> words = {"--preset=preview", "--size=48x32", "--spp=3", "--threads=2"};
+  const Words words = {"--preset=preview", "--size=48x32", "--spp=3", "--threads=2"};
   ViewSession session(path("film.glb"), words);
   // The badge fills the second view.
   for (const LiveFlags& flags :

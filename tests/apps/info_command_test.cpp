@@ -52,11 +52,10 @@ class InfoCommand : public FolderTest {
   }
 
   /// A render of the tiny scene into a file whose name needs quotes.
-  std::string rendered(const std::vector<std::string>& more = {}) const {
+  std::string rendered(const Words& more = {}) const {
     const std::string scene = folder.write("it's a scene.gltf", tiny_scene());
-    std::vector<std::string> call =
-        words_of("render {} -o {} --size 8x4 --spp 2 --environment 1,1,1 --aov depth --quiet",
-                 {scene, path("a b.exr")}, more);
+    Words call = words_of("render {} -o {} --size 8x4 --spp 2 --environment 1,1,1 --aov depth --quiet",
+                          {scene, path("a b.exr")}, more);
     expect_done(run_gatelight(call));
     return path("a b.exr");
   }

@@ -30,10 +30,9 @@ std::string lit_scene() {
 
 class LightFlags : public FolderTest {
  protected:
-  Picture render(const std::vector<std::string>& flags) const {
+  Picture render(const Words& flags) const {
     const std::string file = (folder / "a.exr").string();
-    std::vector<std::string> arguments = {"render", scene,    "-o",    file,    "--exr",
-                                          "float",  "--size", "24x16", "--spp", "4"};
+    Words arguments = {"render", scene, "-o", file, "--exr", "float", "--size", "24x16", "--spp", "4"};
     arguments.insert(arguments.end(), flags.begin(), flags.end());
     expect_done(run_gatelight(arguments));
     return read_image(file);
@@ -96,8 +95,7 @@ float middle_of(const Picture& picture, const std::string& layer) {
 }
 
 TEST_F(LightFlags, GroupsAreLayersThatAddUpAndAreInTheRecipe) {
-  const std::vector<std::string> flags = {"--light-groups", "key=no*;sky=environment", "--environment",
-                                          "0.25,0.25,0.25"};
+  const Words flags = {"--light-groups", "key=no*;sky=environment", "--environment", "0.25,0.25,0.25"};
   const Picture picture = render(flags);
   ASSERT_EQ(picture.layers.size(), 4u);
   EXPECT_FLOAT_EQ(middle_of(picture, "light-rest"), 0.25f);
@@ -141,7 +139,7 @@ TEST_F(LightFlags, GroupsOfDenoisedPicturesAddUpToRawAndAreMerged) {
 }
 
 TEST_F(LightFlags, BadGroupsAreRefusedInOneLine) {
-  const auto refused = [&](const std::vector<std::string>& flags) {
+  const auto refused = [&](const Words& flags) {
     return run_gatelight_inside(words_of("render {} -o {}", {scene, path("b.exr")}, flags));
   };
   expect_failure(refused({"--light-groups", "key=noom"}), 1,

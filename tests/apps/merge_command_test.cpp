@@ -7,6 +7,7 @@
 #include "renderer/image/image_read.h"
 #include "renderer/image/image_write.h"
 #include "tests/support/folder_test.h"
+#include "tests/support/picture_files.h"
 #include "tests/support/process.h"
 #include "tests/support/tiny_scene.h"
 
@@ -15,13 +16,11 @@ namespace {
 
 class MergeCommand : public FolderTest {
  protected:
+  static Output merge(const Words& words) { return run_gatelight_inside(words_of("merge", {}, words)); }
+
   std::string picture(const std::string& name, int width, float value,
                       std::map<std::string, std::string> metadata = {}) const {
-    renderer::Picture picture{.width = width, .height = 1, .metadata = std::move(metadata)};
-    picture.layers = {{.channels = {"R", "G", "B"},
-                       .values = std::vector<float>(static_cast<std::size_t>(3 * width), value)}};
-    renderer::write_image(picture, folder / name, {.exr_float = true});
-    return path(name);
+    return write_even(path(name), width, 1, value, std::move(metadata));
   }
 };
 
@@ -30,7 +29,7 @@ TEST_F(MergeCommand, WritesTheWeightedMeanIn32Bits) {
   const float fine = 1.0f + 1.0f / 1024.0f;
   const std::string a = picture("a.exr", 2, 1.0f, {{"spp", "16"}, {"seed", "1"}});
   const std::string b = picture("b.exr", 2, fine, {{"spp", "48"}, {"seed", "2"}});
-  const Output output = expect_done(run_gatelight({"merge", "-o", path("m.exr"), a, b}));
+  const Output output = expect_done(merge({"-o", path("m.exr"), a, b}));
   EXPECT_EQ(output.out + output.err, "");
   const renderer::Picture merged = renderer::read_image(path("m.exr"));
   EXPECT_EQ(merged.layers[0].values, std::vector<float>(6, 1.0f + 3.0f / 4096.0f));
@@ -45,7 +44,7 @@ TEST_F(MergeCommand, MergesPicturesOfRender) {
         run_gatelight_inside({"render", scene, "-o", path(std::string(seed) + ".exr"), "--size", "8x6",
                               "--spp", "2", "--seed", seed, "--aov", "variance,depth", "--quiet"}));
   }
-  expect_done(run_gatelight_inside({"merge", path("1.exr"), path("2.exr"), "-o", path("m.exr")}));
+  expect_done(merge({path("1.exr"), path("2.exr"), "-o", path("m.exr")}));
   const renderer::Picture merged = renderer::read_image(path("m.exr"));
   EXPECT_EQ(merged.layers.size(), 3u);
   EXPECT_EQ(merged.metadata.at("spp"), "4");
@@ -56,16 +55,14 @@ TEST_F(MergeCommand, MergesPicturesOfRender) {
 TEST_F(MergeCommand, EqualSeedsGiveAWarning) {
   const std::string a = picture("a.exr", 1, 1.0f, {{"spp", "1"}, {"seed", "7"}});
   const std::string b = picture("b.exr", 1, 2.0f, {{"spp", "1"}, {"seed", "7"}});
-  const Output output = expect_done(run_gatelight({"merge", "-o", path("m.exr"), a, b}));
+  const Output output = expect_done(merge({"-o", path("m.exr"), a, b}));
   expect_messages(output.error_lines(), {{"a.exr", "b.exr", "7"}});
 }
 
 TEST_F(MergeCommand, WrongFilesAreRefused) {
   const std::string a = picture("a.exr", 1, 1.0f);
-  const auto code = [&](const std::vector<std::string>& arguments) {
-    std::vector<std::string> all = {"merge"};
-    all.insert(all.end(), arguments.begin(), arguments.end());
-    const Output output = run_gatelight_inside(all);
+  const auto code = [&](const Words& words) {
+    const Output output = merge(words);
     EXPECT_EQ(output.out, "");
     return output.exit_code;
   };
@@ -75,8 +72,8 @@ TEST_F(MergeCommand, WrongFilesAreRefused) {
   EXPECT_EQ(code({a, a}), 1);
   EXPECT_EQ(code({"-o", path("no/m.exr"), a, a}), 3);
   EXPECT_EQ(code({"-o", path("m.exr"), a, path("missing.exr")}), 2);
-  const Output sizes = run_gatelight_inside({"merge", "-o", path("m.exr"), a, picture("wide.exr", 2, 1.0f)});
-  expect_failure(sizes, 2, {"a.exr", "wide.exr", "2x1"});
+  expect_failure(merge({"-o", path("m.exr"), a, picture("wide.exr", 2, 1.0f)}), 2,
+                 {"a.exr", "wide.exr", "2x1"});
   EXPECT_FALSE(std::filesystem::exists(path("m.exr")));
 }
 
@@ -84,14 +81,14 @@ TEST_F(MergeCommand, PicturesThatAreNotFiniteAreRefused) {
   const std::string good = picture("a.exr", 2, 1.0f, {{"scene", "a/room.glb"}});
   for (const float value : {std::nanf(""), std::numeric_limits<float>::infinity()}) {
     const std::string bad = picture("b.exr", 2, value);
-    const Output output = run_gatelight_inside({"merge", "-o", path("m.exr"), good, bad});
+    const Output output = merge({"-o", path("m.exr"), good, bad});
     expect_failure(output, 2, {bad, "6"});
     EXPECT_FALSE(std::filesystem::exists(path("m.exr")));
   }
   const std::string same = picture("c.exr", 2, 1.0f, {{"scene", "b/room.glb"}});
-  EXPECT_EQ(run_gatelight_inside({"merge", "-o", path("m.exr"), good, same}).err, "");
+  EXPECT_EQ(merge({"-o", path("m.exr"), good, same}).err, "");
   const std::string other = picture("d.exr", 2, 1.0f, {{"scene", "a/hall.glb"}});
-  const Output warned = expect_done(run_gatelight({"merge", "-o", path("m.exr"), good, other}));
+  const Output warned = expect_done(merge({"-o", path("m.exr"), good, other}));
   expect_messages(warned.error_lines(), {{"hall.glb", "room.glb"}});
 }
 

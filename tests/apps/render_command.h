@@ -17,13 +17,13 @@ namespace gatelight::tests {
 
 class SquareRenders : public FolderTest {
  protected:
-  Output render(const std::vector<std::string>& flags) const {
+  Output render(const Words& flags) const {
     if (std::find(flags.begin(), flags.end(), "--spp") != flags.end()) return render_open(flags);
     return render_open(words_of("--spp 4", {}, flags));
   }
 
   /// Renders without --spp.
-  Output render_open(const std::vector<std::string>& flags) const {
+  Output render_open(const Words& flags) const {
     return run_gatelight(words_of("render {} --environment 1,1,1 --size 24x16", {scene}, flags));
   }
 

@@ -15,6 +15,7 @@
 
 #include "renderer/image/image_read.h"
 #include "tests/apps/render_command.h"
+#include "tests/support/picture_files.h"
 
 namespace gatelight::tests {
 namespace {
@@ -172,11 +173,9 @@ TEST_F(RenderReports, ValuesBeyondHalfAreCountedByLayer) {
   const std::string beauty = fmt::format("{} in the picture", count);
   expect_messages(half.warnings(), {{"65504", beauty, "--exr float"}});
   expect_messages(json::parse(half.out)["warnings"], {{"65504", beauty, "--exr float"}});
-  const auto no_warning = [&](std::vector<std::string> flags) {
-    EXPECT_THAT(render(flags).err, Not(HasSubstr("65504")));
-  };
+  const auto no_warning = [&](Words flags) { EXPECT_THAT(render(flags).err, Not(HasSubstr("65504"))); };
   no_warning({"-o", path("a.exr"), "--exr", "float"});
-  EXPECT_GE(read_image(path("a.exr")).layers[0].values[3 * (8 * 24 + 12)], 1e6f);
+  EXPECT_GE(beauty_of(path("a.exr"))[3 * (8 * 24 + 12)], 1e6f);
   no_warning({"-o", path("a.hdr")});
   EXPECT_THAT(render({"-o", "exr:-"}).err, HasSubstr("65504"));
 }

@@ -18,7 +18,7 @@ using std::chrono::microseconds;
 
 struct Kill {
   const char* name;
-  std::vector<std::string> arguments;
+  Words arguments;
 };
 
 /// Inode of the file. It changes with each write, because files are renamed into place.
@@ -34,7 +34,7 @@ void PrintTo(const Kill& kill, std::ostream* stream) {
 class Killed : public ::testing::TestWithParam<Kill> {
  protected:
   std::vector<std::string> command(const std::string& output, const char* threads) const {
-    std::vector<std::string> words =
+    Words words =
         words_of("render {} -o {} --threads {} --size 96x96 --exr float --quiet --reproducible",
                  {GATELIGHT_SOURCE_DIR "/data/cornell-box.glb", (folder / output).string(), threads});
     words.insert(words.end(), GetParam().arguments.begin(), GetParam().arguments.end());
@@ -47,7 +47,7 @@ class Killed : public ::testing::TestWithParam<Kill> {
 TEST_P(Killed, ResumingAfterKillsAtAnyMomentGivesTheSameBytes) {
   expect_done(run_gatelight(command("straight.exr", "2")));
   const std::string checkpoint = (folder / "checkpoint").string();
-  std::vector<std::string> words = command("killed.exr", "1");
+  Words words = command("killed.exr", "1");
   for (const char* word : {"--checkpoint", checkpoint.c_str(), "--checkpoint-every", "0", "--resume"})
     words.emplace_back(word);
   int killed = 0;
@@ -86,7 +86,7 @@ INSTANTIATE_TEST_SUITE_P(Kinds, Killed,
 
 TEST(Resuming, ReportsWhichOptionDiffers) {
   const TemporaryFolder folder;
-  const auto run = [&](const std::vector<std::string>& more) {
+  const auto run = [&](const Words& more) {
     return run_gatelight(words_of(
         "render {} -o {} --size 16x16 --spp 2 --checkpoint {} --resume --quiet",
         {GATELIGHT_SOURCE_DIR "/data/cornell-box.glb", (folder / "a.exr").string(), (folder / "c").string()},

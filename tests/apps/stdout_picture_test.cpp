@@ -83,7 +83,7 @@ TEST_F(StdoutPicture, ATerminalIsRefusedBeforeTheWork) {
 }
 
 TEST_F(StdoutPicture, IsTheOnlyResultThere) {
-  const auto refused = [&](const std::vector<std::string>& flags, const NameList& names) {
+  const auto refused = [&](const Words& flags, const NameList& names) {
     expect_failure(run_gatelight_inside(words_of("render {}", {scene}, flags)), 1, names);
   };
   refused({"-o", "-", "--stats", "-"}, {"--stats", "'-'"});

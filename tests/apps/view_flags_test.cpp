@@ -7,6 +7,7 @@
 
 #include "renderer/image/image_read.h"
 #include "tests/support/folder_test.h"
+#include "tests/support/picture_files.h"
 #include "tests/support/process.h"
 #include "tests/support/tiny_scene.h"
 
@@ -30,12 +31,9 @@ class ViewFlags : public FolderTest {
     }
     return folder.write("cameras.gltf", scene.dump());
   }
-  Output render(const std::string& scene, const std::vector<std::string>& flags) const {
+  Output render(const std::string& scene, const Words& flags) const {
     return run_gatelight(
         words_of("render {} --size 24x16 --spp 1 --exr float --reproducible", {scene}, flags));
-  }
-  std::vector<float> values(const std::string& name) const {
-    return renderer::read_image(path(name)).layers[0].values;
   }
 };
 
@@ -44,17 +42,18 @@ TEST_F(ViewFlags, CameraAllRendersEveryCameraWhateverItsName) {
   expect_done(
       render(scene, {"--camera", "all", "-o", path("{camera}.exr"), "--stats", path("{camera}.json")}));
   expect_done(render(scene, {"--camera", "2", "-o", path("first.exr")}));
-  EXPECT_EQ(values("2.exr"), values("first.exr"));
+  EXPECT_EQ(beauty_of(path("2.exr")), beauty_of(path("first.exr")));
   expect_done(render(scene, {"--camera", "0", "-o", path("second.exr")}));
-  EXPECT_EQ(values("0.exr"), values("second.exr"));
-  EXPECT_NE(values("2.exr"), values("0.exr"));
-  EXPECT_NE(values("twin-2.exr"), values("twin-3.exr"));
+  EXPECT_EQ(beauty_of(path("0.exr")), beauty_of(path("second.exr")));
+  EXPECT_NE(beauty_of(path("2.exr")), beauty_of(path("0.exr")));
+  EXPECT_NE(beauty_of(path("twin-2.exr")), beauty_of(path("twin-3.exr")));
   EXPECT_TRUE(std::filesystem::exists(path("twin-3.json")));
 }
 
 TEST_F(ViewFlags, NamesOfCamerasNeverOverwriteAFile) {
-  const auto refuse = [&](const std::vector<std::string>& names, const std::vector<std::string>& flags,
-                          const std::string& of) { expect_failure(render(scene_of(names), flags), 1, {of}); };
+  const auto refuse = [&](const std::vector<std::string>& names, const Words& flags, const std::string& of) {
+    expect_failure(render(scene_of(names), flags), 1, {of});
+  };
   const std::string out = path("{camera}.exr");
   refuse({"a/b", "a_b"}, {"--camera", "all", "-o", out}, "a_b.exr");
   refuse({"x", "x", "x-1"}, {"--camera", "all", "-o", out}, "x-1.exr");
@@ -68,7 +67,7 @@ TEST_F(ViewFlags, FlagsReplaceTheEntriesOfAViewFileThatTheyExclude) {
   const auto view = [&](const json& content) { return folder.write("view.json", content.dump()); };
   const auto rendered = [&](const std::string& name, const Words& flags) {
     expect_done(render(scene, words_of("-o {}", {path(name)}, flags)));
-    return values(name);
+    return beauty_of(path(name));
   };
   json above = {{"eye", {0, 0, 9}}, {"target", {0, 0, 0}}};
   const std::vector<float> far = rendered("far.exr", {"--camera", "far"});

@@ -11,7 +11,7 @@ namespace {
 class Libraries : public Faults {
  protected:
   /// Runs a copy of the program without the files beside it.
-  Output run_alone(std::vector<std::string> arguments) const {
+  Output run_alone(Words arguments) const {
     const std::string copy = path("bin/gatelight");
     std::filesystem::create_directory(folder / "bin");
     std::filesystem::copy_file(GATELIGHT_PROGRAM, copy, std::filesystem::copy_options::overwrite_existing);
@@ -29,7 +29,7 @@ TEST_F(Libraries, MissingLibrariesAreReportedBeforeWorkThatRequiresThem) {
   renderer::Picture pixel{
       .width = 1, .height = 1, .layers = {{.channels = {"R", "G", "B"}, .values = {0, 0, 0}}}};
   renderer::write_image(pixel, sky_png);
-  for (const std::vector<std::string>& arguments :
+  for (const Words& arguments :
        {std::vector<std::string>{"render", scene, "--environment", hdr, "-o", path("a.exr")},
         {"render", scene, "-o", path("a.tif")},
         {"render", scene, "-o", "hdr:-"},

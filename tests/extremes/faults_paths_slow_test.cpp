@@ -70,7 +70,7 @@ TEST_F(Names, EveryFileNameWorksForEveryInputAndOutput) {
     std::filesystem::copy_file(folder / "t.png", file(".png"));
     std::filesystem::copy_file(folder / "t.exr", file(".exr"));
     folder.write(name + "/" + name + ".toml", "spp = 2\n");
-    const auto run = [&](const std::vector<std::string>& more) {
+    const auto run = [&](const Words& more) {
       return run_gatelight(
           words_of("render {} --environment {} --config {} --size 16x16 --integrator nrc --train-steps 4 "
                    "--batch 256 --quiet --threads 2",
@@ -115,7 +115,7 @@ TEST_F(Names, FilesWithTheLongestNamesCanBeReplaced) {
   const auto named = [&](char letter, const std::string& extension, std::size_t length = 255) {
     return path(std::string(length - extension.size(), letter) + extension);
   };
-  const auto run = [&](const std::vector<std::string>& more) {
+  const auto run = [&](const Words& more) {
     return run_gatelight(
         square("-o {} --checkpoint {} --integrator nrc --train-steps 4 --batch 256 "
                "--size 16x16 --spp 2 --quiet",

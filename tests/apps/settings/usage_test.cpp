@@ -25,7 +25,7 @@ class Usage : public FolderTest {
   std::string scene() const { return folder.write("scene.gltf", tiny_scene()); }
   /// Runs a render of the tiny scene that must be refused. It runs in this process, because there are many
   /// and the program starts slowly.
-  Output refused(const std::vector<std::string>& flags) const {
+  Output refused(const Words& flags) const {
     const Output output = run_gatelight_inside(words_of("render {} -o {}", {scene(), path("a.png")}, flags));
     EXPECT_EQ(output.out, "");
     EXPECT_FALSE(std::filesystem::exists(path("a.png")));
@@ -83,9 +83,8 @@ TEST_F(Usage, VersionNamesProgramAndDenoiserOnStdout) {
 }
 
 TEST_F(Usage, AMissingOrUnknownSubcommandIsCode1) {
-  for (const std::vector<std::string>& arguments :
-       {std::vector<std::string>{}, std::vector<std::string>{"frobnicate"},
-        std::vector<std::string>{"--frob"}}) {
+  for (const Words& arguments : {std::vector<std::string>{}, std::vector<std::string>{"frobnicate"},
+                                 std::vector<std::string>{"--frob"}}) {
     const Output output = run_gatelight_inside(arguments);
     expect_failure(output, 1, {"--help"});
     EXPECT_EQ(output.out, "");
@@ -101,7 +100,7 @@ TEST_F(Usage, UnknownFlagsAreRefusedByName) {
 }
 
 struct Misspelt {
-  std::vector<std::string> arguments;
+  Words arguments;
   const char* meant;  ///< empty: no name is near
 };
 
@@ -132,7 +131,7 @@ TEST_F(Usage, TheNearestNameIsSuggested) {
 }
 
 struct BadValue {
-  std::vector<std::string> flags;
+  Words flags;
   NameList names;
 };
 
@@ -299,7 +298,7 @@ TEST_F(Usage, AConfigFileIsTextOfAtMostOneMebibyte) {
 
 TEST_F(Usage, AnErrorInAValueOfAConfigFileNamesTheFile) {
   const std::string config = folder.write("c.toml", "eye = [1, 2]\nspp = 4\nbatch = 256\n");
-  const auto expect_refused = [&](std::vector<std::string> words, const char* flag, bool from_file) {
+  const auto expect_refused = [&](Words words, const char* flag, bool from_file) {
     words.insert(words.begin(), {"--config", config});
     const Output output = refused(words);
     expect_failure(output, 1, {flag});

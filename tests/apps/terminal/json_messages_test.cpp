@@ -34,13 +34,11 @@ class JsonMessages : public FolderTest {
     return kinds;
   }
 
-  std::vector<std::string> words(const std::vector<std::string>& more) const {
-    std::vector<std::string> all = {"render", scene, "-o", path("a.png"), "--size", "8x8", "--spp", "1"};
-    all.insert(all.end(), more.begin(), more.end());
-    return all;
+  Words words(const Words& more) const {
+    return words_of("render {} -o {} --size 8x8 --spp 1", {scene, path("a.png")}, more);
   }
   /// The only event of a call that fails early.
-  void expect_error(const std::vector<std::string>& call, int code, const NameList& names,
+  void expect_error(const Words& call, int code, const NameList& names,
                     Place place = Place::current()) const {
     const ::testing::ScopedTrace trace(place.file, place.line, "call");
     const Output output = run_gatelight_inside(call);
@@ -83,7 +81,7 @@ TEST_F(JsonMessages, WarningsAreEvents) {
 
 TEST_F(JsonMessages, ErrorsAreEventsWhereverTheyAreFound) {
   const std::vector<std::string> loud = {"--progress", "json"};
-  const auto with = [&](std::vector<std::string> more) {
+  const auto with = [&](Words more) {
     more.insert(more.end(), loud.begin(), loud.end());
     return words(more);
   };
@@ -125,15 +123,15 @@ TEST_F(JsonMessages, ASignalIsANotice) {
 }
 
 TEST_F(JsonMessages, ASweepEmitsWarningEventsToo) {
-  const Output output = run_gatelight({"sweep", scene, path("broken.gltf"), "-o", path("out"), "--size",
-                                       "8x8", "--integrators", "path", "--spp", "1", "--reference-spp", "2",
-                                       "--environment", "1,1,1", "--progress", "json"});
+  const Words call = words_of(
+      "sweep {} {} -o {} --size 8x8 --integrators path --spp 1 --reference-spp 2 --environment 1,1,1 "
+      "--progress json",
+      {scene, path("broken.gltf"), path("out")});
+  const Output output = run_gatelight(call);
   EXPECT_EQ(output.exit_code, 2) << "a scene that is not there is found before the first cell";
   EXPECT_EQ(kinds(events(output)), std::vector<std::string>{"error"});
   folder.write("broken.gltf", "no scene");
-  const Output partly = run_gatelight({"sweep", scene, path("broken.gltf"), "-o", path("out"), "--size",
-                                       "8x8", "--integrators", "path", "--spp", "1", "--reference-spp", "2",
-                                       "--environment", "1,1,1", "--progress", "json"});
+  const Output partly = run_gatelight(call);
   EXPECT_EQ(partly.exit_code, 7) << partly.err;
   const std::vector<json> description = events(partly);
   EXPECT_THAT(kinds(description), Contains("warning"));

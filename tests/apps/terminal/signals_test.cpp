@@ -53,7 +53,7 @@ TEST_F(Signals, InterruptAndTerminateWriteThePictureSoFar) {
 }
 
 TEST_F(Signals, StatisticsOfResumedRunsAddUp) {
-  std::vector<std::string> arguments = endless();
+  Words arguments = endless();
   arguments.insert(arguments.end(), {"--checkpoint", path("k"), "--resume"});
   Process process(arguments);
   ASSERT_TRUE(process.wait_for_error_text("\"progress\""));
@@ -85,7 +85,7 @@ TEST_F(Signals, AHangupThatIsIgnoredStaysIgnored) {
 }
 
 TEST_F(Signals, ASecondInterruptEndsTheProgramAtOnce) {
-  std::vector<std::string> arguments = endless();
+  Words arguments = endless();
   // A pass of four million samples on one thread is not finished in between.
   std::replace(arguments.begin(), arguments.end(), std::string("64x64"), std::string("2048x2048"));
   Process process(arguments);
