@@ -153,12 +153,17 @@ TEST_F(CacheCommand, ProgressGoesThroughThePhases) {
   const Output output = render({"--integrator", "nrc", "-o", path("a.png"), "--progress", "json"});
   std::istringstream lines(output.err);
   std::vector<std::string> phases;
+  double last = 0.0;
   for (std::string line; std::getline(lines, line);) {
     const json object = json::parse(line);
     if (object["event"] != "progress") continue;
     const auto phase = object["phase"].get<std::string>();
-    if (phases.empty() || phases.back() != phase) phases.push_back(phase);
-    EXPECT_GE(object["fraction"], 0.0);
+    if (phases.empty() || phases.back() != phase) {
+      phases.push_back(phase);
+      last = 0.0;
+    }
+    EXPECT_GE(object["fraction"], last);
+    last = object["fraction"];
     EXPECT_LE(object["fraction"], 1.0);
     EXPECT_GE(object.value("eta_seconds", 0.0), 0.0) << line;
   }
@@ -174,19 +179,6 @@ TEST_F(CacheCommand, AllLayersShowTheCache) {
     EXPECT_TRUE(std::any_of(layer->values.begin(), layer->values.end(), [](float v) { return v > 0.0f; }))
         << name;
   }
-}
-
-TEST_F(CacheCommand, ASavedCacheAnswersAsTheOneThatWasTrained) {
-  const std::string file = path("c.safetensors");
-  expect_done(
-      render(words_of("--integrator nrc --quiet --exr float -o {} --cache-out {}", {path("a.exr"), file})));
-  expect_done(render(words_of("--integrator nrc --quiet --exr float -o {} --cache-in {} --train-steps 0",
-                              {path("b.exr"), file})));
-  EXPECT_EQ(beauty_of(path("a.exr")), beauty_of(path("b.exr")));
-  const json other_view = statistics(
-      {"--integrator", "nrc", "--cache-in", path("c.safetensors"), "--train-steps", "3", "--fov", "20"});
-  EXPECT_EQ(other_view["train"]["steps"], 3);
-  EXPECT_EQ(other_view["options"]["cache-in"], path("c.safetensors"));
 }
 
 TEST_F(CacheCommand, ASavedCacheOfAnotherSceneOrConfigurationIsCode2) {
@@ -227,19 +219,6 @@ TEST_F(CacheCommand, InfoDescribesTheCacheOfARender) {
   for (const char* part : {"parameters", "optimizer", "layout"}) {
     EXPECT_EQ(stats["memory_bytes"][part], cache["memory_bytes"][part]) << part;
   }
-}
-
-TEST_F(CacheCommand, AnImpossibleCacheIsCode1) {
-  const Output output =
-      render({"--integrator", "nrc", "--cache-memory", "0.0001", "-o", path("a.png"), "--quiet"});
-  expect_failure(output, 1, {"cache-memory", "105", "768"});
-}
-
-TEST_F(CacheCommand, ADeviceThatIsMissingIsCode5) {
-  const Output output =
-      render({"--integrator", "nrc", "--device", "vulkan:99", "-o", path("a.png"), "--quiet"});
-  expect_failure(output, 5, {"vulkan:99", "--device cpu"});  // and the devices of this machine
-  EXPECT_FALSE(std::filesystem::exists(path("a.png")));
 }
 
 }  // namespace

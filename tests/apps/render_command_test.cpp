@@ -1,4 +1,4 @@
-// Pictures of real renders through the real program: their files, layers and regions.
+// Pictures of real renders through the real program, and what info says of scenes.
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -41,17 +41,6 @@ TEST_F(RenderCommand, WritesEveryOutputAndNothingToStdout) {
   }
 }
 
-TEST_F(RenderCommand, TheSquareReflectsHalfOfAWhiteSky) {
-  expect_done(render({"-o", path("a.exr"), "--exr", "float", "--spp", "256", "--quiet"}));
-  const Picture picture = read_image(path("a.exr"));
-  const std::vector<float>& values = picture.layers[0].values;
-  // The corner sees the sky, the middle a rough dielectric: half of the light, and what its surface reflects.
-  EXPECT_NEAR(values[0], 1.0f, 1e-5f);
-  const float middle = values[3 * (8 * 24 + 12)];
-  EXPECT_GT(middle, 0.45f);
-  EXPECT_LT(middle, 0.60f);
-}
-
 TEST_F(RenderCommand, ATimeIsInTheRecipeAndDecidesWhoseCheckpointItIs) {
   const auto render_at = [&](const std::string& time) {
     return run_gatelight(
@@ -74,34 +63,6 @@ TEST_F(RenderCommand, ReproducibleFilesAreEqualForAnyNumberOfThreads) {
   expect_done(render({"-o", path("c.exr"), "--reproducible", "--quiet", "--seed", "1"}));
   EXPECT_EQ(read_file(path("a.exr")), read_file(path("b.exr")));
   EXPECT_NE(beauty_of(path("a.exr")), beauty_of(path("c.exr")));
-}
-
-TEST_F(RenderCommand, ARegionIsThePartOfTheFullPicture) {
-  expect_done(render({"-o", path("full.exr"), "--exr", "float", "--quiet"}));
-  expect_done(render({"-o", path("part.exr"), "--exr", "float", "--quiet", "--region", "9,4,14,7"}));
-  const Picture full = read_image(path("full.exr"));
-  const Picture part = read_image(path("part.exr"));
-  EXPECT_EQ(part.width, 5);
-  EXPECT_EQ(part.height, 3);
-  EXPECT_EQ(part.x0, 9);
-  EXPECT_EQ(part.y0, 4);
-  EXPECT_EQ(part.full_width, 24);
-  EXPECT_EQ(part.full_height, 16);
-  for (int y = 0; y < 3; ++y) {
-    for (int x = 0; x < 15; ++x) {
-      EXPECT_EQ(part.layers[0].values[static_cast<std::size_t>(y * 15 + x)],
-                full.layers[0].values[static_cast<std::size_t>((y + 4) * 72 + 27 + x)]);
-    }
-  }
-}
-
-TEST_F(RenderCommand, AllLayersAreInTheExr) {
-  expect_done(render({"-o", path("a.exr"), "--aov", "all", "--quiet"}));
-  const Picture picture = read_image(path("a.exr"));
-  for (const char* name :
-       {"albedo", "normal", "depth", "position", "primitive", "instance", "samples", "variance"}) {
-    EXPECT_NE(picture.find(name), nullptr) << name;
-  }
 }
 
 TEST_F(RenderCommand, CryptomattesAreInTheExrAndStayWhenItIsMergedAndDenoised) {
@@ -148,12 +109,6 @@ TEST_F(RenderCommand, CryptomattesAreInTheExrAndStayWhenItIsMergedAndDenoised) {
 TEST_F(RenderCommand, CryptomattesThatNoOutputStoresGiveAWarning) {
   const Output output = expect_done(render({"-o", path("a.png"), "--cryptomatte", "object"}));
   expect_messages(output.warnings(), {{"--cryptomatte", ".exr"}});
-}
-
-TEST_F(RenderCommand, AmbientOcclusionOfAnOpenSquareIsOne) {
-  expect_done(render({"-o", path("a.exr"), "--integrator", "ao", "--ao-distance", "inf", "--quiet"}));
-  const Picture picture = read_image(path("a.exr"));
-  EXPECT_FLOAT_EQ(picture.layers[0].values[3 * (8 * 24 + 12)], 1.0f);
 }
 
 TEST_F(RenderCommand, AnInstructionSetThatIsMissingIsCode5) {

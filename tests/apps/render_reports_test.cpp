@@ -8,8 +8,6 @@
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <set>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -205,25 +203,6 @@ TEST_F(RenderReports, SamplesThatAreNotFiniteAreLocatedOrStopTheRun) {
   std::filesystem::remove(path("a.exr"));
   expect_failure(run({"--nan", "error"}), 6, {"hot.gltf", "pixel", "--nan drop"});
   EXPECT_FALSE(std::filesystem::exists(path("a.exr")));
-}
-
-TEST_F(RenderReports, ProgressLinesAreJson) {
-  const Output output = expect_done(render({"-o", path("a.png"), "--progress", "json"}));
-  std::istringstream lines(output.err);
-  std::set<std::string> events;
-  double last_fraction = 0.0;
-  for (std::string line; std::getline(lines, line);) {
-    const json object = json::parse(line);
-    events.insert(object["event"]);
-    if (object["event"] != "progress") continue;
-    for (const char* key : {"fraction", "spp_done", "spp", "seconds", "samples_per_second"}) {
-      EXPECT_TRUE(object[key].is_number()) << key;
-    }
-    EXPECT_EQ(object["phase"], "render");
-    EXPECT_GE(object["fraction"], last_fraction);
-    last_fraction = object["fraction"];
-  }
-  EXPECT_THAT(events, UnorderedElementsAre("phase", "progress", "done"));
 }
 
 TEST_F(RenderReports, TheProgressBarIsShownOnlyOnRequest) {

@@ -84,20 +84,5 @@ INSTANTIATE_TEST_SUITE_P(Kinds, Killed,
                                                  "--batch", "2048"}}),
                          [](const auto& kind) { return std::string(kind.param.name); });
 
-TEST(Resuming, ReportsWhichOptionDiffers) {
-  const TemporaryFolder folder;
-  const auto run = [&](const Words& more) {
-    return run_gatelight(words_of(
-        "render {} -o {} --size 16x16 --spp 2 --checkpoint {} --resume --quiet",
-        {GATELIGHT_SOURCE_DIR "/data/cornell-box.glb", (folder / "a.exr").string(), (folder / "c").string()},
-        more));
-  };
-  expect_done(run({}));
-  const Output other = run({"--seed", "5"});
-  expect_failure(other, 2, {"seed", "0", "5"});
-  const Output environment = run({"--environment", "1,1,1"});
-  expect_failure(environment, 2, {"environment"});
-}
-
 }  // namespace
 }  // namespace gatelight::tests
