@@ -4,6 +4,7 @@
 
 #include <functional>
 
+#include "renderer/surface/media.h"
 #include "tests/extremes/pictures.h"
 
 namespace gatelight::renderer {
