@@ -6,7 +6,6 @@
 #include "renderer/film/camera.h"
 #include "renderer/film/camera_choice.h"
 #include "tests/extremes/pictures.h"
-#include "tests/extremes/scene_file.h"
 #include "tests/support/room.h"
 
 namespace gatelight::renderer {
@@ -14,58 +13,34 @@ namespace {
 
 using namespace testing;
 
-/// The room's own size is 5 m.
-constexpr double kSize = 5.0;
-
-scene::GltfBuilder moved_file(double sizes) {
-  const scene::Scene made = room();
-  const scene::Camera camera = choose_camera(made, room_picture(Integrator::path, 16).camera, 4.0f / 3.0f);
-  const double d = sizes * kSize / std::sqrt(3.0);
-  return file_of(made, camera, {d, -d, d});
+/// The room with a camera of its own.
+scene::Scene room_with_camera() {
+  scene::Scene s = room();
+  s.cameras.push_back(choose_camera(s, room_picture(Integrator::path, 16).camera, 4.0f / 3.0f));
+  return s;
 }
 
-scene::Scene from_file(double sizes) {
-  return moved_file(sizes).load();
-}
-
-Rendered with_its_own_camera(const scene::Scene& s, RenderOptions options) {
+Rendered with_its_own_camera(const scene::Scene& s, std::uint32_t seed = 0) {
+  RenderOptions options = room_picture(Integrator::path, 16);
   options.camera.look_at.reset();
+  options.seed = seed;
   return render(s, options);
-}
-
-TEST(Moved, AFileMovedByItsNodesRendersTheSamePicture) {
-  for (const Integrator integrator : kAll) {
-    const RenderOptions options = room_picture(integrator, 16);
-    const Rendered here = with_its_own_camera(from_file(0.0), options);
-    RenderOptions again = options;
-    again.seed = 1;
-    const double noise = block_error(here, with_its_own_camera(from_file(0.0), again), options.width);
-    for (const double sizes : {10.0, 1e2, 1e4, 1e6}) {
-      const Rendered far = with_its_own_camera(from_file(sizes), options);
-      EXPECT_TRUE(far.sane());
-      const double error = block_error(here, far, options.width);
-      // A cache's layout follows the scouting paths, and one node more or less changes the training.
-      EXPECT_LT(error, (uses_cache(integrator) ? 8.0 : 1.0) * noise) << enum_name(integrator) << sizes;
-    }
-  }
-  moved_file(1e9).expect_refused({"test.glb", "1e+09"});
 }
 
 /// Only the reader of files moves a scene back to the origin: here single precision is the limit.
 TEST(Moved, ASceneMadeInCodeKeepsThePrecisionOfItsCoordinates) {
-  const RenderOptions options = room_picture(Integrator::path, 16);
-  const Rendered here = with_its_own_camera(from_file(0.0), options);
-  RenderOptions again = options;
-  again.seed = 1;
-  const double noise = block_error(here, with_its_own_camera(from_file(0.0), again), options.width);
+  constexpr double kSize = 5.0;  // of the room, in metres
+  const int width = room_picture(Integrator::path, 16).width;
+  const Rendered here = with_its_own_camera(room_with_camera());
+  const double noise = block_error(here, with_its_own_camera(room_with_camera(), 1), width);
   for (const double sizes : {1e2, 1e3, 1e4, 1e6}) {
-    scene::Scene s = from_file(0.0);
+    scene::Scene s = room_with_camera();
     const auto d = static_cast<float>(sizes * kSize / std::sqrt(3.0));
     resize(s, 1.0f, Vec3(d, -d, d));
-    const Rendered far = with_its_own_camera(s, options);
+    const Rendered far = with_its_own_camera(s);
     EXPECT_TRUE(far.sane());
     if (sizes <= 1e4) {
-      EXPECT_LT(block_error(here, far, options.width), noise) << sizes;
+      EXPECT_LT(block_error(here, far, width), noise) << sizes;
     }
   }
 }

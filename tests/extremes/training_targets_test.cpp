@@ -7,9 +7,6 @@ namespace {
 
 using namespace testing;
 
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
-
 std::vector<ModelCase> usual_cases() {
   return {find_model_case("nrc"), find_model_case("nao"), find_model_case("hash_with_everything")};
 }
@@ -129,29 +126,6 @@ TEST(ExtremeTargets, OneBrightRecordDoesNotSetTheInitialAnswers) {
     const auto [low, high] = std::minmax_element(start.begin(), start.end());
     EXPECT_GE(*low, 0.5f);
     EXPECT_LE(*high, 2.0f);
-  }
-}
-
-TEST(ExtremeTargets, NanAndInfinityRejectOnlyTheirRecords) {
-  FastAgreement agreement;
-  for (const ModelCase& c : usual_cases())
-    for (const float share : {0.01f, 0.5f, 0.99f}) {
-      const TrainingOptions options = smooth_options();
-      const ModelState state = random_state(*c.model, options, 7, true);
-      const OwnedBatch batch = make_smooth_batch(*c.model, state, 1021, 7, {.nonfinite = share});
-      agreement.expect_same("mixed", c, options, state, batch, 3);
-    }
-  // Every target of a record, with NaN and both infinities.
-  const ModelCase c = find_model_case("nrc");
-  OwnedBatch batch = make_batch(*c.model, 99, 8);
-  for (std::size_t r = 0; r < 99; r += 3)
-    batch.targets[3 * r + r % 9 / 3] = r % 2 == 0 ? kNan : r % 4 == 1 ? kInfinity : -kInfinity;
-  for (const auto& fast : fast_backends(c.model, {})) {
-    const StepStatistics s = fast->train(batch.training());
-    EXPECT_EQ(s.rejected, 33u);
-    EXPECT_EQ(s.records, 66u);
-    EXPECT_TRUE(std::isfinite(s.loss));
-    expect_sound(*fast, *c.model, batch);
   }
 }
 
