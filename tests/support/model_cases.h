@@ -53,6 +53,13 @@ using NamedConfigs = std::vector<std::pair<std::string, ModelConfig>>;
 
 namespace detail {
 
+/// Adds a variant of a configuration.
+template <class Change>
+void add(NamedConfigs& configs, std::string name, ModelConfig config, const Change& change) {
+  change(config);
+  configs.emplace_back(std::move(name), std::move(config));
+}
+
 /// The second configuration of the benchmarks.
 inline ModelConfig occlusion_config() {
   ModelConfig config = default_gate_config();
@@ -64,60 +71,44 @@ inline ModelConfig occlusion_config() {
 
 /// Every number of features, with stacks of fixed, adaptive and divided resolutions.
 inline void add_stacks(NamedConfigs& configs) {
-  const ModelConfig gate = default_gate_config();
-  for (std::uint32_t features = 1; features <= 16; ++features) {
-    ModelConfig c = gate;
-    c.gate.features = features;
-    configs.emplace_back(fmt::format("gate_L{}", features), c);
+  using Stack = std::vector<std::uint32_t>;
+  const auto add_stack = [&](const std::string& name, std::uint32_t features, const Stack& stack) {
+    add(configs, fmt::format("gate_L{}{}", features, name), default_gate_config(), [&](ModelConfig& c) {
+      c.gate.features = features;
+      if (!stack.empty()) c.gate.stack = stack;
+    });
+  };
+  for (std::uint32_t features = 1; features <= 16; ++features) add_stack("", features, {});
+  for (const Stack& stack :
+       std::vector<Stack>{{kAdaptive}, {1}, {3}, {kAdaptive, 2}, {4, 2, 1}, {kAdaptive, 4, 2, 1}}) {
+    std::string name = "_stack";
+    for (const std::uint32_t r : stack) name += r == kAdaptive ? "_a" : fmt::format("_{}", r);
+    for (const std::uint32_t features : {1u, 2u, 3u, 8u, 16u}) add_stack(name, features, stack);
   }
-  const std::vector<std::vector<std::uint32_t>> stacks = {{kAdaptive},    {1},       {3},
-                                                          {kAdaptive, 2}, {4, 2, 1}, {kAdaptive, 4, 2, 1}};
-  for (const auto& stack : stacks)
-    for (const std::uint32_t features : {1u, 2u, 3u, 8u, 16u}) {
-      ModelConfig c = gate;
-      c.gate.stack = stack;
-      c.gate.features = features;
-      std::string name = fmt::format("gate_L{}_stack", features);
-      for (const std::uint32_t r : stack) name += r == kAdaptive ? "_a" : fmt::format("_{}", r);
-      configs.emplace_back(name, c);
-    }
-  const std::vector<std::vector<std::uint32_t>> parts = {{kAdaptive, adaptive_part(4), adaptive_part(16)},
-                                                         {adaptive_part(3), 1, kAdaptive, adaptive_part(64)},
-                                                         {adaptive_part(64), 3}};
+  const std::vector<Stack> parts = {{kAdaptive, adaptive_part(4), adaptive_part(16)},
+                                    {adaptive_part(3), 1, kAdaptive, adaptive_part(64)},
+                                    {adaptive_part(64), 3}};
   for (std::size_t i = 0; i < parts.size(); ++i)
-    for (const std::uint32_t features : {2u, 8u}) {
-      ModelConfig c = gate;
-      c.gate.stack = parts[i];
-      c.gate.features = features;
-      configs.emplace_back(fmt::format("gate_L{}_cells_{}", features, i), c);
-    }
-  ModelConfig finest = occlusion_config();
-  finest.gate.stack = {kMaxResolution};
-  configs.emplace_back("gate_L2_stack_64", finest);
+    for (const std::uint32_t features : {2u, 8u}) add_stack(fmt::format("_cells_{}", i), features, parts[i]);
+  add(configs, "gate_L2_stack_64", occlusion_config(),
+      [](ModelConfig& c) { c.gate.stack = {kMaxResolution}; });
 }
 
 /// Every storage and rule of resolution.
 inline void add_storages(NamedConfigs& configs) {
-  const ModelConfig gate = default_gate_config();
+  ModelConfig gate = default_gate_config();
+  gate.gate.cluster = false;
   for (const std::uint32_t features : {2u, 5u, 8u}) {
     ModelConfig c = gate;
     c.gate.features = features;
     c.gate.storage = NodeStorage::per_triangle;
-    c.gate.cluster = false;
     configs.emplace_back(fmt::format("gate_L{}_per_triangle", features), c);
     c.gate.stack = {5, kAdaptive, 1};
     configs.emplace_back(fmt::format("gate_L{}_per_triangle_stack_5_a_1", features), c);
   }
-  for (const auto& [word, rule] :
-       {std::pair{"paper", ResolutionRule::paper}, {"fixed", ResolutionRule::fixed}}) {
-    ModelConfig c = gate;
-    c.gate.rule = rule;
-    c.gate.cluster = false;
-    configs.emplace_back(fmt::format("gate_rule_{}", word), c);
-  }
-  ModelConfig unclustered = gate;
-  unclustered.gate.cluster = false;
-  configs.emplace_back("gate_unclustered", unclustered);
+  add(configs, "gate_rule_paper", gate, [](ModelConfig& c) { c.gate.rule = ResolutionRule::paper; });
+  add(configs, "gate_rule_fixed", gate, [](ModelConfig& c) { c.gate.rule = ResolutionRule::fixed; });
+  configs.emplace_back("gate_unclustered", gate);
 }
 
 /// Every width, depth, number of outputs and slope, with and without biases.
@@ -141,89 +132,70 @@ inline void add_networks(NamedConfigs& configs) {
     c.mlp.biases = false;
     if (outputs % 4 == 1) configs.emplace_back(fmt::format("outputs_{}_64_no_biases", outputs), c);
   }
-  for (const int percent : {0, 1, 30, 100}) {
-    ModelConfig c = gate;
-    c.mlp.leaky_slope = static_cast<float>(percent) / 100.0f;
-    configs.emplace_back(fmt::format("leaky_slope_{}_percent", percent), c);
-  }
+  for (const int percent : {0, 1, 30, 100})
+    add(configs, fmt::format("leaky_slope_{}_percent", percent), gate,
+        [&](ModelConfig& c) { c.mlp.leaky_slope = static_cast<float>(percent) / 100.0f; });
 }
 
 /// Every auxiliary input in every encoding, alone and with the others.
 inline void add_inputs(NamedConfigs& configs) {
-  const ModelConfig gate = default_gate_config(), hash = default_hash_config(),
-                    plain = default_plain_config();
+  const std::pair<const char*, ModelConfig> encodings[] = {
+      {"gate", default_gate_config()}, {"hash", default_hash_config()}, {"plain", default_plain_config()}};
+  const auto add_with = [&](const std::string& name, const ModelConfig& config,
+                            const std::vector<AuxiliaryInput>& inputs) {
+    add(configs, name, config, [&](ModelConfig& c) { c.auxiliary = inputs; });
+  };
+  const ModelConfig& plain = encodings[2].second;
   constexpr std::pair<const char*, InputSource> kSources[] = {{"position", InputSource::position},
                                                               {"direction", InputSource::direction},
                                                               {"normal", InputSource::normal},
                                                               {"albedo", InputSource::albedo},
                                                               {"roughness", InputSource::roughness}};
   for (const auto& [word, source] : kSources) {
-    ModelConfig c = plain;
-    c.auxiliary = {{source, InputEncoding::identity, 0}};
-    configs.emplace_back(fmt::format("plain_{}_identity", word), c);
-    for (const std::uint32_t bins : {2u, 8u, 64u}) {
-      c.auxiliary = {{source, InputEncoding::one_blob, bins}};
-      configs.emplace_back(fmt::format("plain_{}_one_blob_{}", word, bins), c);
-    }
-    for (const std::uint32_t frequencies : {1u, 5u, 16u}) {
-      c.auxiliary = {{source, InputEncoding::frequency, frequencies}};
-      configs.emplace_back(fmt::format("plain_{}_frequency_{}", word, frequencies), c);
-    }
-    for (ModelConfig with : {gate, hash}) {
-      with.auxiliary = {{source, InputEncoding::one_blob, 4}};
-      configs.emplace_back(
-          fmt::format("{}_with_{}", with.encoding == FeatureEncoding::gate ? "gate" : "hash", word), with);
-    }
+    add_with(fmt::format("plain_{}_identity", word), plain, {{source, InputEncoding::identity, 0}});
+    for (const std::uint32_t bins : {2u, 8u, 64u})
+      add_with(fmt::format("plain_{}_one_blob_{}", word, bins), plain,
+               {{source, InputEncoding::one_blob, bins}});
+    for (const std::uint32_t frequencies : {1u, 5u, 16u})
+      add_with(fmt::format("plain_{}_frequency_{}", word, frequencies), plain,
+               {{source, InputEncoding::frequency, frequencies}});
+    for (const auto& [name, config] : {encodings[0], encodings[1]})
+      add_with(fmt::format("{}_with_{}", name, word), config, {{source, InputEncoding::one_blob, 4}});
   }
-  const std::vector<AuxiliaryInput> everything = {{InputSource::roughness, InputEncoding::one_blob, 4},
-                                                  {InputSource::normal, InputEncoding::identity, 0},
-                                                  {InputSource::position, InputEncoding::frequency, 6},
-                                                  {InputSource::direction, InputEncoding::one_blob, 16},
-                                                  {InputSource::albedo, InputEncoding::identity, 0},
-                                                  {InputSource::direction, InputEncoding::identity, 0}};
-  for (ModelConfig c : {gate, hash, plain}) {
-    c.auxiliary = everything;
-    configs.emplace_back(
-        fmt::format("{}_with_everything", c.encoding == FeatureEncoding::gate        ? "gate"
-                                          : c.encoding == FeatureEncoding::hash_grid ? "hash"
-                                                                                     : "plain"),
-        c);
-  }
-  ModelConfig widest = plain;
-  widest.auxiliary = {{InputSource::position, InputEncoding::one_blob, 64},
-                      {InputSource::roughness, InputEncoding::one_blob, 64}};
-  configs.emplace_back("plain_256_inputs", widest);
-  ModelConfig gate_only = gate;
-  gate_only.auxiliary.clear();
-  configs.emplace_back("gate_only", gate_only);
+  for (const auto& [name, config] : encodings)
+    add_with(fmt::format("{}_with_everything", name), config,
+             {{InputSource::roughness, InputEncoding::one_blob, 4},
+              {InputSource::normal, InputEncoding::identity, 0},
+              {InputSource::position, InputEncoding::frequency, 6},
+              {InputSource::direction, InputEncoding::one_blob, 16},
+              {InputSource::albedo, InputEncoding::identity, 0},
+              {InputSource::direction, InputEncoding::identity, 0}});
+  add_with("plain_256_inputs", plain,
+           {{InputSource::position, InputEncoding::one_blob, 64},
+            {InputSource::roughness, InputEncoding::one_blob, 64}});
+  add_with("gate_only", encodings[0].second, {});
 }
 
 /// Every shape of a hash grid.
 inline void add_hash_grids(NamedConfigs& configs) {
   const ModelConfig hash = default_hash_config();
-  for (std::uint32_t features = 1; features <= 16; ++features) {
-    ModelConfig c = hash;
-    c.hash_grid.features = features;
-    configs.emplace_back(fmt::format("hash_F{}", features), c);
-  }
-  for (const std::uint32_t levels : {1u, 2u, 5u, 16u}) {
-    ModelConfig c = hash;
-    c.hash_grid.levels = levels;
-    c.hash_grid.features = 2;
-    c.hash_grid.base_resolution = 3;
-    c.hash_grid.growth = 1.4f;
-    configs.emplace_back(fmt::format("hash_{}_levels", levels), c);
-  }
-  ModelConfig hash_only = hash;
-  hash_only.auxiliary.clear();
-  configs.emplace_back("hash_only", hash_only);
-  ModelConfig tiny = hash;
-  tiny.hash_grid.log2_table_size = 3;
-  tiny.hash_grid.base_resolution = 1;
-  configs.emplace_back("hash_tables_of_8", tiny);
-  ModelConfig odd = hash;  // a table size that is no power of two
-  odd.hash_grid.memory_target = 100000;
-  configs.emplace_back("hash_memory_target", odd);
+  for (std::uint32_t features = 1; features <= 16; ++features)
+    add(configs, fmt::format("hash_F{}", features), hash,
+        [&](ModelConfig& c) { c.hash_grid.features = features; });
+  for (const std::uint32_t levels : {1u, 2u, 5u, 16u})
+    add(configs, fmt::format("hash_{}_levels", levels), hash, [&](ModelConfig& c) {
+      c.hash_grid.levels = levels;
+      c.hash_grid.features = 2;
+      c.hash_grid.base_resolution = 3;
+      c.hash_grid.growth = 1.4f;
+    });
+  add(configs, "hash_only", hash, [](ModelConfig& c) { c.auxiliary.clear(); });
+  add(configs, "hash_tables_of_8", hash, [](ModelConfig& c) {
+    c.hash_grid.log2_table_size = 3;
+    c.hash_grid.base_resolution = 1;
+  });
+  // A table size that is no power of two.
+  add(configs, "hash_memory_target", hash, [](ModelConfig& c) { c.hash_grid.memory_target = 100000; });
 }
 
 }  // namespace detail
@@ -236,11 +208,11 @@ inline NamedConfigs all_model_configs() {
   detail::add_networks(configs);
   detail::add_inputs(configs);
   detail::add_hash_grids(configs);
-  ModelConfig apart = detail::occlusion_config();
-  apart.gate.stack = {kMaxResolution};
-  apart.gate.storage = NodeStorage::per_triangle;
-  apart.gate.cluster = false;
-  configs.emplace_back("gate_L2_per_triangle_stack_64", apart);
+  detail::add(configs, "gate_L2_per_triangle_stack_64", detail::occlusion_config(), [](ModelConfig& c) {
+    c.gate.stack = {kMaxResolution};
+    c.gate.storage = NodeStorage::per_triangle;
+    c.gate.cluster = false;
+  });
   return configs;
 }
 
