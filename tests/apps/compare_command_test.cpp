@@ -171,7 +171,6 @@ TEST_F(CompareCommand, ErrorMapIsAPictureOfTheSameSize) {
 TEST_F(CompareCommand, UnusablePicturesAreCode2) {
   const std::string reference = picture("r.exr", 2, 2, 1.0f);
   expect_failure(compare(reference, picture("t.exr", 2, 3, 1.0f)), 2, {"r.exr", "t.exr", "2x3"});
-  EXPECT_EQ(sizes.out, "");
   renderer::Picture grey{.width = 2, .height = 2};
   grey.layers = {{.channels = {"Y"}, .values = std::vector<float>(4, 1.0f)}};
   renderer::write_image(grey, folder / "grey.exr", {.exr_float = true});
@@ -216,7 +215,6 @@ TEST_F(CompareCommand, PicturesWithoutAFinitePixelAreRefused) {
   const std::string reference = picture("r.exr", 2, 1, 1.0f);
   const std::string test = picture("t.exr", 2, 1, std::nanf(""));
   expect_failure(compare(reference, test, {"--metric", "mse"}), 2, {"2", test});
-  EXPECT_EQ(output.out, "");
 }
 
 TEST_F(CompareCommand, ResultsDoNotReplaceTheComparedFiles) {
