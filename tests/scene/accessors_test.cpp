@@ -144,6 +144,12 @@ TEST(Accessors, WithoutAViewAreZeros) {
       t.load(t.file.add("accessors", {{"componentType", kFloat}, {"type", "VEC2"}, {"count", 3}}));
   ASSERT_EQ(mesh.uv0.size(), 3u);
   for (const Vec2& uv : mesh.uv0) EXPECT_EQ(uv, Vec2(0, 0));
+  GltfBuilder file;
+  json primitive = file.triangle();
+  primitive["indices"] =
+      file.add("accessors", {{"componentType", kUnsignedShort}, {"count", 3}, {"type", "SCALAR"}});
+  file.node({{"mesh", file.mesh(primitive)}});
+  EXPECT_EQ(file.refused(), "");
 }
 
 TEST(Accessors, AllIndexTypesGiveTheSameTriangle) {

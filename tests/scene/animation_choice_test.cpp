@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <limits>
+#include <string>
 
 #include "tests/support/animated_file.h"
 
@@ -84,7 +86,7 @@ TEST(AnimationChoice, ATimeThatIsNoNumberIsRefused) {
 
 struct Flaw {
   const char* name;
-  void (*make)(AnimatedFile& file);
+  std::function<void(AnimatedFile& file)> make;
   tests::NameList message;  ///< empty: it loads, with a warning
   tests::NameList warning{};
 };
@@ -119,63 +121,55 @@ TEST_P(BrokenAnimation, MattersOnlyWhereItIsChosen) {
   }
 }
 
-json& last_animation(AnimatedFile& file) {
-  return file.root["animations"].back();
-}
-
 void move_by(AnimatedFile& file, const Floats& times, const Floats& values,
              const char* interpolation = "LINEAR") {
   file.move(0, "translation", {file.seconds(times), file.vectors(values)}, interpolation);
 }
 
+Flaw moved(const char* name, const Floats& times, const Floats& values, const tests::NameList& message,
+           const tests::NameList& warning = {}, const char* interpolation = "LINEAR") {
+  return {name, [=](AnimatedFile& file) { move_by(file, times, values, interpolation); }, message, warning};
+}
+
+/// A value of a sound animation is another one; null: it is missing.
+Flaw edited(const char* name, const std::string& pointer, const json& value, const tests::NameList& message,
+            const tests::NameList& warning = {}) {
+  const auto make = [=](AnimatedFile& file) {
+    move_by(file, {0}, {0, 0, 0});
+    const json::json_pointer place("/animations/1" + pointer);
+    file.root[place] = value;
+    if (value.is_null()) file.root[place.parent_pointer()].erase(place.back());
+  };
+  return {name, make, message, warning};
+}
+
 const Flaw kFlaws[] = {
-    {"FallingTimes",
-     [](AnimatedFile& f) {
-       move_by(f, {0, 2, 1}, Floats(9));
-     },
-     {"accessors", "2", "1"}},
-    {"NanTimes",
-     [](AnimatedFile& f) {
-       move_by(f, {0, kNan}, Floats(6));
-     },
-     {"accessors", "nan", "finite"}},
-    {"InfiniteTimes",
-     [](AnimatedFile& f) {
-       move_by(f, {0, INFINITY}, Floats(6));
-     },
-     {"accessors", "inf", "finite"}},
-    {"EqualTimes",
-     [](AnimatedFile& f) {
-       move_by(f, {0, 1, 1}, Floats(9));
-     },
-     {},
-     {"same time"}},
-    {"NoKeys", [](AnimatedFile& f) { move_by(f, {}, {}); }, {}, {"animations[1].channels[0]", "no keys"}},
-    {"TooFewValues",
-     [](AnimatedFile& f) {
-       move_by(f, {0, 1}, Floats(3));
-     },
-     {"accessors", "1", "2", "animations[1].channels[0]"}},
-    {"TooManyValues",
-     [](AnimatedFile& f) {
-       move_by(f, {0, 1}, Floats(9));
-     },
-     {"accessors", "3", "2"}},
-    {"SplineWithoutTangents",
-     [](AnimatedFile& f) {
-       move_by(f, {0, 1}, Floats(6), "CUBICSPLINE");
-     },
-     {"accessors", "2", "6"}},
-    {"NanValues",
-     [](AnimatedFile& f) {
-       move_by(f, {0, 1}, {0, 0, 0, 0, kNan, 0});
-     },
-     {"accessors", "finite"}},
-    {"OtherType",
-     [](AnimatedFile& f) {
-       f.move(0, "rotation", {f.seconds({0}), f.vectors({0, 0, 0})});
-     },
-     {"accessors", "3", "4"}},
+    moved("FallingTimes", {0, 2, 1}, Floats(9), {"accessors", "2", "1"}),
+    moved("NanTimes", {0, kNan}, Floats(6), {"accessors", "nan", "finite"}),
+    moved("InfiniteTimes", {0, INFINITY}, Floats(6), {"accessors", "inf", "finite"}),
+    moved("EqualTimes", {0, 1, 1}, Floats(9), {}, {"same time"}),
+    moved("NoKeys", {}, {}, {}, {"animations[1].channels[0]", "no keys"}),
+    moved("TooFewValues", {0, 1}, Floats(3), {"accessors", "1", "2", "animations[1].channels[0]"}),
+    moved("TooManyValues", {0, 1}, Floats(9), {"accessors", "3", "2"}),
+    moved("SplineWithoutTangents", {0, 1}, Floats(6), {"accessors", "2", "6"}, {}, "CUBICSPLINE"),
+    moved("NanValues", {0, 1}, {0, 0, 0, 0, kNan, 0}, {"accessors", "finite"}),
+    moved("UnknownInterpolation", {0}, {0, 0, 0}, {},
+          {"animations[1].channels[0].sampler.interpolation", "BEZIER"}, "BEZIER"),
+    edited("OtherType", "/channels/0/target/path", "rotation", {"accessors", "3", "4"}),
+    edited("UnknownPath", "/channels/0/target/path", "colour", {},
+           {"animations[1].channels[0]", "/nodes/0/colour"}),
+    edited("WeightsWithoutTargets", "/channels/0/target/path", "weights", {},
+           {"animations[1].channels[0]", "/nodes/0/weights"}),
+    edited("MissingAccessor", "/samplers/0/input", 99, {"animations[1].channels[0].sampler.input", "99"}),
+    edited("MissingOutput", "/samplers/0/output", nullptr,
+           {"animations[1].channels[0].sampler.output", "missing"}),
+    edited("MissingSampler", "/channels/0/sampler", 7, {"animations[1].channels[0].sampler", "7", "1"}),
+    edited("NoSampler", "/channels/0/sampler", nullptr, {"animations[1].channels[0].sampler", "missing"}),
+    edited("MissingNode", "/channels/0/target/node", 44,
+           {"animations[1].channels[0].target.node", "44", "1"}),
+    edited("NoTarget", "/channels/0/target/node", nullptr, {}, {"animations[1].channels[0]", "no target"}),
+    edited("ChannelsThatAreNoList", "/channels", 3, {"animations[1].channels", "3"}),
+    edited("AChannelThatIsNoObject", "/channels", json::array({3}), {"animations[1].channels[0]", "3"}),
     {"IntegerTimes",
      [](AnimatedFile& f) {
        f.move(0, "translation",
@@ -187,40 +181,6 @@ const Flaw kFlaws[] = {
        f.move(0, "translation", {f.vectors({0, 0, 0}), f.vectors({0, 0, 0})});
      },
      {"accessors", "times", "1"}},
-    {"MissingAccessor",
-     [](AnimatedFile& f) {
-       f.move(0, "translation", {99, 0});
-     },
-     {"animations[1].channels[0].sampler.input", "99"}},
-    {"MissingOutput",
-     [](AnimatedFile& f) {
-       move_by(f, {0}, {0, 0, 0});
-       last_animation(f)["samplers"][0].erase("output");
-     },
-     {"animations[1].channels[0].sampler.output", "missing"}},
-    {"MissingSampler",
-     [](AnimatedFile& f) {
-       move_by(f, {0}, {0, 0, 0});
-       last_animation(f)["channels"][0]["sampler"] = 7;
-     },
-     {"animations[1].channels[0].sampler", "7", "1"}},
-    {"NoSampler",
-     [](AnimatedFile& f) {
-       move_by(f, {0}, {0, 0, 0});
-       last_animation(f)["channels"][0].erase("sampler");
-     },
-     {"animations[1].channels[0].sampler", "missing"}},
-    {"MissingNode",
-     [](AnimatedFile& f) {
-       f.move(44, "translation", {0, 0});
-     },
-     {"animations[1].channels[0].target.node", "44", "1"}},
-    {"ChannelsThatAreNoList",
-     [](AnimatedFile& f) { last_animation(f)["channels"] = 3; },
-     {"animations[1].channels", "3"}},
-    {"AChannelThatIsNoObject",
-     [](AnimatedFile& f) { last_animation(f)["channels"] = {3}; },
-     {"animations[1].channels[0]", "3"}},
     {"TooManyBytes",
      [](AnimatedFile& f) {
        const int times =
@@ -228,30 +188,6 @@ const Flaw kFlaws[] = {
        f.move(0, "translation", {times, times});
      },
      {"accessors", "2000000000", "1048576"}},
-    {"UnknownInterpolation",
-     [](AnimatedFile& f) {
-       move_by(f, {0}, {0, 0, 0}, "BEZIER");
-     },
-     {},
-     {"animations[1].channels[0].sampler.interpolation", "BEZIER"}},
-    {"UnknownPath",
-     [](AnimatedFile& f) {
-       f.move(0, "colour", {f.seconds({0}), f.vectors({0, 0, 0})});
-     },
-     {},
-     {"animations[1].channels[0]", "/nodes/0/colour"}},
-    {"WeightsWithoutTargets",
-     [](AnimatedFile& f) {
-       f.move(0, "weights", {f.seconds({0}), f.scalars({1})});
-     },
-     {},
-     {"animations[1].channels[0]", "/nodes/0/weights"}},
-    {"NoTarget",
-     [](AnimatedFile& f) {
-       f.channel({{"path", "translation"}}, {0, 0});
-     },
-     {},
-     {"animations[1].channels[0]", "no target"}},
     {"TwoChannelsForOneValue",
      [](AnimatedFile& f) {
        move_by(f, {0}, {1, 0, 0});

@@ -123,11 +123,13 @@ TEST(Nodes, ReadThePriorityOfAMediumFromTheirExtras) {
   file.node({{"mesh", mesh}});
   file.node({{"mesh", mesh}, {"extras", {{"dielectric_priority", -2.5}, {"other", "text"}}}});
   file.node({{"mesh", mesh}, {"extras", "any JSON is allowed"}});
+  file.node({{"mesh", mesh}, {"extras", {{"dielectric_priority", 3000000000}}}});
   const Scene scene = file.load();
-  ASSERT_EQ(scene.instances.size(), 3u);
+  ASSERT_EQ(scene.instances.size(), 4u);
   EXPECT_EQ(scene.instances[0].dielectric_priority, 0.0f);
   EXPECT_EQ(scene.instances[1].dielectric_priority, -2.5f);
   EXPECT_EQ(scene.instances[2].dielectric_priority, 0.0f);
+  EXPECT_EQ(scene.instances[3].dielectric_priority, 3e9f) << "more than 32 bits";
   EXPECT_LT(scene.instances[0].placement, scene.instances[1].placement);
   // Other applications may use the name for something else.
   for (const json& other : {json("high"), json(1e300), json(nullptr), json::object()}) {

@@ -2,14 +2,13 @@
 
 #include <functional>
 
+#include "tests/neural/extreme_batches.h"
 #include "tests/neural/vulkan/agreement.h"
 
 namespace gatelight::neural {
 namespace {
 
 using namespace testing;
-
-constexpr float kGreatest = std::numeric_limits<float>::max();
 
 class VulkanExtremes : public OnVulkan {};
 
@@ -23,63 +22,17 @@ void for_every_precision(const ModelCase& c, const std::function<void(Backend&)>
   }
 }
 
-std::vector<ModelCase> usual_cases() {
-  return {find_model_case("nrc"), find_model_case("hash_with_everything"),
-          find_model_case("plain_with_everything")};
-}
-
-void expect_finite(const Backend& backend, const OwnedBatch& batch, const Model& model) {
-  const ModelState state = backend.export_state();
-  const auto finite = [](const std::vector<float>& values) {
-    return std::all_of(values.begin(), values.end(), [](float x) { return std::isfinite(x); });
-  };
-  EXPECT_TRUE(finite(state.parameters) && finite(state.averages) && finite(state.first_moments) &&
-              finite(state.second_moments));
-  EXPECT_TRUE(finite(answers(backend, model, batch, {})));
-}
-
 TEST_F(VulkanExtremes, WeightsStayFiniteForEveryTarget) {
   for (const ModelCase& c : usual_cases())
     for_every_precision(c, [&](Backend& backend) {
-      const ModelState start = backend.export_state();
-      for (const float target : {0.0f, 1e-45f, 1e-6f, 1e9f, kGreatest}) {
-        SCOPED_TRACE(target);
-        backend.import_state(start);
-        OwnedBatch batch = make_batch(*c.model, 50, 1);
-        for (int step = 0; step < 4; ++step) {
-          for (std::size_t i = 0; i < batch.targets.size(); ++i)
-            batch.targets[i] = (step >= 2 ? i % 2 : static_cast<std::size_t>(step)) == 1 ? -target : target;
-          EXPECT_EQ(backend.train(batch.training()).records, 50u);
-        }
-        expect_finite(backend, batch, *c.model);
-      }
+      expect_finite_for_targets(backend, *c.model, {0.0f, 1e-45f, 1e-6f, 1e9f, kGreatestFloat});
     });
 }
 
 TEST_F(VulkanExtremes, WeightsStayFiniteForEveryInput) {
   for (const ModelCase& c : usual_cases())
     for_every_precision(c, [&](Backend& backend) {
-      const ModelState start = backend.export_state();
-      for (const float value : {1e-45f, 1e-38f, 1e19f, kGreatest}) {
-        SCOPED_TRACE(value);
-        backend.import_state(start);
-        OwnedBatch batch = make_batch(*c.model, 60, 2);
-        for (std::size_t r = 0; r < batch.size(); ++r) {
-          const auto set = [&](auto& span) {
-            for (std::size_t i = 0; !span.empty() && i < span[r].size(); ++i)
-              if (r % 3 != i) span[r][i] = r % 2 == 0 ? value : -value;
-          };
-          set(batch.barycentrics);
-          set(batch.positions);
-          set(batch.directions);
-          set(batch.normals);
-          set(batch.albedos);
-          if (!batch.roughnesses.empty()) batch.roughnesses[r] = value;
-        }
-        for (int step = 0; step < 3; ++step) EXPECT_EQ(backend.train(batch.training()).rejected, 0u);
-        expect_finite(backend, make_batch(*c.model, 60, 3), *c.model);
-        expect_finite(backend, batch, *c.model);
-      }
+      expect_finite_for_inputs(backend, *c.model, {1e-45f, 1e-38f, 1e19f, kGreatestFloat});
     });
 }
 
