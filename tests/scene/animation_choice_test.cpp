@@ -8,6 +8,7 @@
 #include <string>
 
 #include "tests/support/animated_file.h"
+#include "tests/support/gltf_parts.h"
 
 namespace gatelight::scene {
 namespace {
@@ -20,8 +21,7 @@ constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 /// Three animations. The first two move the triangle, the last one another node.
 AnimatedFile three_animations() {
   AnimatedFile file = moving_triangle();
-  file.node({{"camera", 0}});
-  file.add("cameras", {{"type", "perspective"}, {"perspective", {{"yfov", 1.0}, {"znear", 0.1}}}});
+  file.node({{"camera", camera(file)}});
   file.animation("walk");
   file.move(0, "translation", {file.seconds({0, 1}), file.vectors({0, 0, 0, 1, 0, 0})});
   file.animation("run");
@@ -183,8 +183,7 @@ const Flaw kFlaws[] = {
      {"accessors", "times", "1"}},
     {"TooManyBytes",
      [](AnimatedFile& f) {
-       const int times =
-           f.add("accessors", {{"componentType", kFloat}, {"type", "SCALAR"}, {"count", 2000000000}});
+       const int times = zeros(f, kFloat, "SCALAR", 2000000000);
        f.move(0, "translation", {times, times});
      },
      {"accessors", "2000000000", "1048576"}},
@@ -221,12 +220,9 @@ TEST(AnimationChoice, ChannelsOfWhatIsNotShownAreNotRead) {
 
 TEST(AnimationChoice, BuffersOfOtherAnimationsNeedNotExist) {
   AnimatedFile file = three_animations();
-  while (file.bin.size() % 4 != 0) file.bin.push_back(0);
-  file.root["buffers"] = {{{"byteLength", file.bin.size()}}, {{"byteLength", 24}, {"uri", "missing.bin"}}};
+  name_buffers(file, json::array({{{"byteLength", 24}, {"uri", "missing.bin"}}}));
   const int view = file.add("bufferViews", {{"buffer", 1}, {"byteLength", 24}});
-  const int away = file.add(
-      "accessors", {{"bufferView", view}, {"componentType", kFloat}, {"type", "VEC3"}, {"count", 2}});
-  file.root["animations"][1]["samplers"][0]["output"] = away;
+  file.root["animations"][1]["samplers"][0]["output"] = accessor_of_view(file, view, kFloat, "VEC3", 2);
   EXPECT_EQ(place(file.at(1.0, "walk")), Vec3(1, 0, 0));
   file.expect_refused({"missing.bin"}, {.time = 1.0, .animation = "run"});
 }

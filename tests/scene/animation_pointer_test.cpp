@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "tests/support/animated_file.h"
+#include "tests/support/gltf_parts.h"
 
 namespace gatelight::scene {
 namespace {
@@ -18,12 +19,11 @@ AnimatedFile lit_triangle(const json& material = json::object()) {
   json primitive = file.triangle();
   primitive["material"] = file.add("materials", material);
   file.node({{"mesh", file.mesh(primitive)}});
-  file.add("cameras", {{"type", "perspective"}, {"perspective", {{"yfov", 1.0}, {"znear", 0.1}}}});
+  camera(file);
   file.add("cameras", {{"type", "orthographic"},
                        {"orthographic", {{"xmag", 1.0}, {"ymag", 1.0}, {"znear", 0.1}, {"zfar", 9.0}}}});
-  file.root["extensions"]["KHR_lights_punctual"]["lights"] = {
-      {{"type", "spot"}, {"spot", {{"innerConeAngle", 0.2}, {"outerConeAngle", 0.6}}}}};
-  file.node({{"camera", 0}, {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
+  set_lights(file, {{{"type", "spot"}, {"spot", {{"innerConeAngle", 0.2}, {"outerConeAngle", 0.6}}}}});
+  file.node({{"camera", 0}, {"extensions", light_of_node(0)}});
   file.node({{"camera", 1}});
   return file;
 }

@@ -8,6 +8,7 @@
 
 #include "scene/gltf/animation.h"
 #include "tests/support/animated_file.h"
+#include "tests/support/gltf_parts.h"
 
 namespace gatelight::scene {
 namespace {
@@ -262,12 +263,7 @@ TEST(Animations, WeightsMayBeNormalisedBytes) {
 
 TEST(Animations, SkinsFollowTheirJoints) {
   AnimatedFile file;
-  json primitive = file.triangle();
-  primitive["attributes"]["JOINTS_0"] =
-      file.accessor(std::vector<std::uint8_t>{0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0}, kUnsignedByte, "VEC4", 3);
-  primitive["attributes"]["WEIGHTS_0"] =
-      file.accessor(Floats{1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}, kFloat, "VEC4", 3);
-  const int mesh = file.mesh(primitive);
+  const int mesh = file.mesh(triangle_of_joint(file));
   const int joint = file.node(json::object());
   file.add("skins", {{"joints", {joint}}});
   file.node({{"mesh", mesh}, {"skin", 0}});
@@ -278,9 +274,8 @@ TEST(Animations, SkinsFollowTheirJoints) {
 
 TEST(Animations, CamerasAndLightsFollowTheirNodes) {
   AnimatedFile file = moving_triangle();
-  file.add("cameras", {{"type", "perspective"}, {"perspective", {{"yfov", 1.0}, {"znear", 0.1}}}});
-  file.root["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}}};
-  const int node = file.node({{"camera", 0}, {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
+  set_lights(file, {{{"type", "point"}}});
+  const int node = file.node({{"camera", camera(file)}, {"extensions", light_of_node(0)}});
   file.move(node, "translation", {file.seconds({0, 1}), file.vectors({0, 0, 0, 0, 2, 0})});
   const Scene scene = file.at(0.5);
   EXPECT_EQ(Vec3(scene.cameras[0].transform.translation()), Vec3(0, 1, 0));

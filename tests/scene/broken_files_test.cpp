@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <random>
 
-#include "tests/support/gltf_builder.h"
+#include "tests/support/gltf_parts.h"
 #include "tests/support/scene_fault.h"
 
 namespace gatelight::scene {
@@ -75,13 +75,10 @@ std::vector<std::uint8_t> rich_file() {
   const int places = file.accessor(std::vector<float>{0, 0, 0, 1, 0, 0}, kFloat, "VEC3", 2);
   file.add("nodes", {{"mesh", mesh}, {"rotation", {0, 0, 0, 1}}});
   file.node({{"children", {0}}, {"scale", {2, 2, 2}}});
-  file.node({{"mesh", mesh},
-             {"extensions", {{"EXT_mesh_gpu_instancing", {{"attributes", {{"TRANSLATION", places}}}}}}}});
-  file.add("cameras", {{"type", "perspective"}, {"perspective", {{"yfov", 1.0}, {"znear", 0.1}}}});
-  file.node({{"camera", 0}});
-  file.root["extensions"]["KHR_lights_punctual"]["lights"] = {
-      {{"type", "spot"}, {"spot", {{"outerConeAngle", 0.5}}}}};
-  file.node({{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
+  file.node({{"mesh", mesh}, {"extensions", instancing({{"TRANSLATION", places}})}});
+  file.node({{"camera", camera(file)}});
+  set_lights(file, {{{"type", "spot"}, {"spot", {{"outerConeAngle", 0.5}}}}});
+  file.node({{"extensions", light_of_node(0)}});
   return file.glb();
 }
 

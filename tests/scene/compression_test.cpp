@@ -12,7 +12,7 @@
 #include <set>
 
 #include "scene/gltf/color_filter.h"
-#include "tests/support/gltf_builder.h"
+#include "tests/support/gltf_parts.h"
 
 namespace gatelight::scene {
 namespace {
@@ -67,6 +67,27 @@ Mesh plain_sheet() {
   return only_mesh(file.load());
 }
 
+/// Adds a view that is compressed, and returns its index. Its decoded data belong to buffer 1, a fallback.
+int compressed_view(GltfBuilder& file, const std::string& extension, const std::vector<std::uint8_t>& packed,
+                    std::size_t count, std::size_t stride, const json& mode) {
+  const auto packed_view = static_cast<std::size_t>(file.view(packed));
+  const json offset = file.root["bufferViews"][packed_view]["byteOffset"];
+  json view = {{"buffer", 1}, {"byteLength", count * stride}};
+  view["extensions"][extension] = {{"buffer", 0},
+                                   {"byteOffset", offset},
+                                   {"byteLength", packed.size()},
+                                   {"byteStride", stride},
+                                   {"count", count}};
+  view["extensions"][extension].update(mode);
+  return file.add("bufferViews", view);
+}
+
+std::vector<std::uint8_t> packed_vertices(const void* data, std::size_t count, std::size_t stride) {
+  std::vector<std::uint8_t> packed(meshopt_encodeVertexBufferBound(count, stride));
+  packed.resize(meshopt_encodeVertexBuffer(packed.data(), packed.size(), data, count, stride));
+  return packed;
+}
+
 GltfBuilder meshopt_sheet(const std::string& index_mode,
                           const std::string& extension = "EXT_meshopt_compression") {
   GltfBuilder file;
@@ -74,8 +95,6 @@ GltfBuilder meshopt_sheet(const std::string& index_mode,
   const std::vector<float> xyz = sheet_positions();
   const std::vector<std::uint32_t> list = sheet_indices();
   const std::size_t vertices = xyz.size() / 3;
-  std::vector<std::uint8_t> packed(meshopt_encodeVertexBufferBound(vertices, 12));
-  packed.resize(meshopt_encodeVertexBuffer(packed.data(), packed.size(), xyz.data(), vertices, 12));
   std::vector<std::uint8_t> indices;
   if (index_mode == "TRIANGLES") {
     indices.resize(meshopt_encodeIndexBufferBound(list.size(), vertices));
@@ -84,32 +103,14 @@ GltfBuilder meshopt_sheet(const std::string& index_mode,
     indices.resize(meshopt_encodeIndexSequenceBound(list.size(), vertices));
     indices.resize(meshopt_encodeIndexSequence(indices.data(), indices.size(), list.data(), list.size()));
   }
-  const auto add = [&](const std::vector<std::uint8_t>& bytes, std::size_t count, std::size_t stride,
-                       const std::string& mode) {
-    const int packed_view = file.view(bytes);
-    const json where = file.root["bufferViews"][static_cast<std::size_t>(packed_view)];
-    json view = {{"buffer", 1}, {"byteLength", count * stride}};
-    view["extensions"][extension] = {{"buffer", 0},
-                                     {"byteOffset", where["byteOffset"]},
-                                     {"byteLength", bytes.size()},
-                                     {"byteStride", stride},
-                                     {"count", count},
-                                     {"mode", mode}};
-    return file.add("bufferViews", view);
-  };
-  const int vertex_view = add(packed, vertices, 12, "ATTRIBUTES");
-  const int index_view = add(indices, list.size(), 2, index_mode);
-  while (file.bin.size() % 4 != 0) file.bin.push_back(0);
-  file.root["buffers"] = {{{"byteLength", file.bin.size()}},
-                          {{"byteLength", 1 << 20}, {"extensions", {{extension, {{"fallback", true}}}}}}};
+  const int vertex_view = compressed_view(file, extension, packed_vertices(xyz.data(), vertices, 12),
+                                          vertices, 12, {{"mode", "ATTRIBUTES"}});
+  const int index_view = compressed_view(file, extension, indices, list.size(), 2, {{"mode", index_mode}});
+  name_buffers(file,
+               json::array({{{"byteLength", 1 << 20}, {"extensions", {{extension, {{"fallback", true}}}}}}}));
   json primitive;
-  primitive["attributes"]["POSITION"] = file.add(
-      "accessors",
-      {{"bufferView", vertex_view}, {"componentType", kFloat}, {"type", "VEC3"}, {"count", vertices}});
-  primitive["indices"] = file.add("accessors", {{"bufferView", index_view},
-                                                {"componentType", kUnsignedShort},
-                                                {"type", "SCALAR"},
-                                                {"count", list.size()}});
+  primitive["attributes"]["POSITION"] = accessor_of_view(file, vertex_view, kFloat, "VEC3", vertices);
+  primitive["indices"] = accessor_of_view(file, index_view, kUnsignedShort, "SCALAR", list.size());
   file.node({{"mesh", file.mesh(primitive)}});
   return file;
 }
@@ -178,29 +179,14 @@ TEST(Meshopt, ColorFilterGivesColors) {
   // White, red, green and half transparent blue; 8 bits a channel.
   const std::vector<std::uint8_t> filtered = {255, 0, 0,   255, 64, 127, 192, 255,
                                               128, 0, 127, 255, 64, 129, 192, 128 + 64};
-  std::vector<std::uint8_t> packed(meshopt_encodeVertexBufferBound(4, 4));
-  packed.resize(meshopt_encodeVertexBuffer(packed.data(), packed.size(), filtered.data(), 4, 4));
   GltfBuilder file;
   json primitive = {{"attributes", {{"POSITION", file.positions({0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0})}}}};
   primitive["indices"] = file.indices({0, 1, 2, 0, 2, 3});
-  const int packed_view = file.view(packed);
-  const json where = file.root["bufferViews"][static_cast<std::size_t>(packed_view)];
-  json view = {{"buffer", 1}, {"byteLength", 16}, {"byteStride", 4}};
-  view["extensions"]["KHR_meshopt_compression"] = {{"buffer", 0},
-                                                   {"byteOffset", where["byteOffset"]},
-                                                   {"byteLength", packed.size()},
-                                                   {"byteStride", 4},
-                                                   {"count", 4},
-                                                   {"mode", "ATTRIBUTES"},
-                                                   {"filter", "COLOR"}};
-  const int decoded = file.add("bufferViews", view);
-  while (file.bin.size() % 4 != 0) file.bin.push_back(0);
-  file.root["buffers"] = {{{"byteLength", file.bin.size()}}, {{"byteLength", 16}}};
-  primitive["attributes"]["COLOR_0"] = file.add("accessors", {{"bufferView", decoded},
-                                                              {"componentType", kUnsignedByte},
-                                                              {"normalized", true},
-                                                              {"type", "VEC4"},
-                                                              {"count", 4}});
+  const int decoded = compressed_view(file, "KHR_meshopt_compression", packed_vertices(filtered.data(), 4, 4),
+                                      4, 4, {{"mode", "ATTRIBUTES"}, {"filter", "COLOR"}});
+  name_buffers(file, json::array({{{"byteLength", 16}}}));
+  primitive["attributes"]["COLOR_0"] =
+      accessor_of_view(file, decoded, kUnsignedByte, "VEC4", 4, {{"normalized", true}});
   file.node({{"mesh", file.mesh(primitive)}});
   const Mesh mesh = only_mesh(file.load());
   const std::vector<Vec4> expected = {{1, 1, 1, 1}, {1, 0, 0, 1}, {0, 1, 0, 1}, {0, 0, 1, 0.5f}};
@@ -222,28 +208,14 @@ TEST(Meshopt, OctahedralFilterGivesNormals) {
   const std::vector<float> normals = {0, 0.6f, 0.8f, 0, 1, 0, 0, 0, -0.28f, 0.96f, 0, 0};
   std::vector<std::uint8_t> filtered(3 * 8);
   meshopt_encodeFilterOct(filtered.data(), 3, 8, 16, normals.data());
-  std::vector<std::uint8_t> packed(meshopt_encodeVertexBufferBound(3, 8));
-  packed.resize(meshopt_encodeVertexBuffer(packed.data(), packed.size(), filtered.data(), 3, 8));
   GltfBuilder file;
   json primitive = file.triangle();
-  const int packed_view = file.view(packed);
-  const json where = file.root["bufferViews"][static_cast<std::size_t>(packed_view)];
-  json view = {{"buffer", 1}, {"byteLength", 24}, {"byteStride", 8}};
-  view["extensions"]["EXT_meshopt_compression"] = {{"buffer", 0},
-                                                   {"byteOffset", where["byteOffset"]},
-                                                   {"byteLength", packed.size()},
-                                                   {"byteStride", 8},
-                                                   {"count", 3},
-                                                   {"mode", "ATTRIBUTES"},
-                                                   {"filter", "OCTAHEDRAL"}};
-  const int decoded = file.add("bufferViews", view);
-  while (file.bin.size() % 4 != 0) file.bin.push_back(0);
-  file.root["buffers"] = {{{"byteLength", file.bin.size()}}, {{"byteLength", 24}}};
-  primitive["attributes"]["NORMAL"] = file.add("accessors", {{"bufferView", decoded},
-                                                             {"componentType", kShort},
-                                                             {"normalized", true},
-                                                             {"type", "VEC3"},
-                                                             {"count", 3}});
+  const int decoded = compressed_view(file, "EXT_meshopt_compression", packed_vertices(filtered.data(), 3, 8),
+                                      3, 8, {{"mode", "ATTRIBUTES"}, {"filter", "OCTAHEDRAL"}});
+  file.root["bufferViews"].back()["byteStride"] = 8;
+  name_buffers(file, json::array({{{"byteLength", 24}}}));
+  primitive["attributes"]["NORMAL"] =
+      accessor_of_view(file, decoded, kShort, "VEC3", 3, {{"normalized", true}});
   file.node({{"mesh", file.mesh(primitive)}});
   const Mesh mesh = only_mesh(file.load());
   ASSERT_EQ(mesh.normals.size(), 3u);
@@ -295,11 +267,8 @@ GltfBuilder draco_file() {
   int id = 0;
   const int view = file.view(draco_sheet(id));
   json primitive;
-  primitive["attributes"]["POSITION"] =
-      file.add("accessors", {{"componentType", kFloat}, {"type", "VEC3"}, {"count", kGrid * kGrid}});
-  primitive["indices"] =
-      file.add("accessors",
-               {{"componentType", kUnsignedShort}, {"type", "SCALAR"}, {"count", sheet_indices().size()}});
+  primitive["attributes"]["POSITION"] = zeros(file, kFloat, "VEC3", kGrid * kGrid);
+  primitive["indices"] = zeros(file, kUnsignedShort, "SCALAR", sheet_indices().size());
   primitive["extensions"]["KHR_draco_mesh_compression"] = {{"bufferView", view},
                                                            {"attributes", {{"POSITION", id}}}};
   file.node({{"mesh", file.mesh(primitive)}});

@@ -1,18 +1,12 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "tests/support/gltf_builder.h"
+#include "tests/support/gltf_parts.h"
 
 namespace gatelight::scene {
 namespace {
 
 using tests::expect_messages;
-
-GltfBuilder triangle_file() {
-  GltfBuilder file;
-  file.node({{"mesh", file.mesh(file.triangle())}});
-  return file;
-}
 
 void expect_refused_bytes(const std::vector<std::uint8_t>& bytes, const tests::NameList& names,
                           const char* name = "test.glb") {

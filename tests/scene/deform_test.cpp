@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "tests/support/gltf_builder.h"
+#include "tests/support/gltf_parts.h"
 
 namespace gatelight::scene {
 namespace {
@@ -12,7 +12,6 @@ namespace {
 using tests::expect_messages;
 using Floats = std::vector<float>;
 
-const Floats kCorners{0, 0, 0, 1, 0, 0, 0, 1, 0};
 const Floats kNormals{0, 0, 1, 0, 0, 1, 0, 0, 1};
 
 /// Column by column.
@@ -22,6 +21,14 @@ Floats translation(float x, float y, float z) {
 
 int vectors(GltfBuilder& file, const Floats& rows) {
   return file.accessor(rows, kFloat, "VEC3", rows.size() / 3);
+}
+
+/// Adds a mesh of a triangle with these changes of its positions; `weights` may be null.
+void add_morphs(GltfBuilder& file, const std::vector<Floats>& targets, const json& weights) {
+  json primitive = file.triangle();
+  for (const Floats& target : targets) primitive["targets"].push_back({{"POSITION", vectors(file, target)}});
+  const int mesh = file.mesh(primitive);
+  if (!weights.is_null()) file.root["meshes"][static_cast<std::size_t>(mesh)]["weights"] = weights;
 }
 
 /// A triangle whose vertices follow two joints by these weights of four a vertex.
@@ -43,13 +50,21 @@ void add_skin(GltfBuilder& file, const json& second, json more = json::object())
 }
 
 const std::vector<std::uint8_t> kBothJoints{0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0};
+const Floats kOfSecond{0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0};  ///< weights
+
+/// A mesh whose vertices follow the second joint of a skin, which has these properties.
+GltfBuilder following_second(const json& second, const Floats& weights = kOfSecond,
+                             const std::vector<std::uint8_t>& joints = kBothJoints) {
+  GltfBuilder file;
+  const int mesh = file.mesh(skinned_triangle(file, joints, weights));
+  add_skin(file, second);
+  file.node({{"mesh", mesh}, {"skin", 0}});
+  return file;
+}
 
 TEST(Morphs, TargetsAddUpByTheWeightsOfTheMesh) {
   GltfBuilder file;
-  json primitive = file.triangle();
-  primitive["targets"] = {{{"POSITION", vectors(file, {2, 0, 0, 2, 0, 0, 2, 0, 0})}},
-                          {{"POSITION", vectors(file, {0, 0, 4, 0, 0, 0, 0, 0, 0})}}};
-  file.add("meshes", {{"primitives", {primitive}}, {"weights", {0.5, 0.25}}});
+  add_morphs(file, {{2, 0, 0, 2, 0, 0, 2, 0, 0}, {0, 0, 4, 0, 0, 0, 0, 0, 0}}, {0.5, 0.25});
   file.node({{"mesh", 0}});
   const Scene scene = file.load();
   EXPECT_EQ(only_mesh(scene).positions[0], Vec3(1, 0, 1));
@@ -59,9 +74,7 @@ TEST(Morphs, TargetsAddUpByTheWeightsOfTheMesh) {
 
 TEST(Morphs, WeightsOfTheNodeReplaceThoseOfTheMesh) {
   GltfBuilder file;
-  json primitive = file.triangle();
-  primitive["targets"] = {{{"POSITION", vectors(file, {2, 0, 0, 2, 0, 0, 2, 0, 0})}}};
-  file.add("meshes", {{"primitives", {primitive}}, {"weights", {1.0}}});
+  add_morphs(file, {{2, 0, 0, 2, 0, 0, 2, 0, 0}}, {1.0});
   file.node({{"mesh", 0}, {"weights", {0.25}}});
   file.node({{"mesh", 0}});
   file.node({{"mesh", 0}, {"weights", {0.0}}});
@@ -77,10 +90,7 @@ TEST(Morphs, WeightsOfTheNodeReplaceThoseOfTheMesh) {
 
 TEST(Morphs, MissingWeightsAreZeroAndFurtherOnesCountNothing) {
   GltfBuilder file;
-  json primitive = file.triangle();
-  primitive["targets"] = {{{"POSITION", vectors(file, {1, 0, 0, 1, 0, 0, 1, 0, 0})}},
-                          {{"POSITION", vectors(file, {0, 1, 0, 0, 1, 0, 0, 1, 0})}}};
-  file.add("meshes", {{"primitives", {primitive}}});
+  add_morphs(file, {{1, 0, 0, 1, 0, 0, 1, 0, 0}, {0, 1, 0, 0, 1, 0, 0, 1, 0}}, nullptr);
   file.node({{"mesh", 0}, {"weights", {1}}});
   file.node({{"mesh", 0}, {"weights", {1, 1, 1}}});
   const Scene scene = file.load();
@@ -91,24 +101,12 @@ TEST(Morphs, MissingWeightsAreZeroAndFurtherOnesCountNothing) {
 TEST(Morphs, TargetsMayBeSparseAndQuantised) {
   GltfBuilder file;
   json primitive = file.triangle();
-  const int indices = file.view(std::vector<std::uint16_t>{2, 0});
-  const int values = file.view(Floats{0, 0, 3});
-  file.add("accessors", {{"componentType", kFloat},
-                         {"type", "VEC3"},
-                         {"count", 3},
-                         {"sparse",
-                          {{"count", 1},
-                           {"indices", {{"bufferView", indices}, {"componentType", kUnsignedShort}}},
-                           {"values", {{"bufferView", values}}}}}});
-  const int sparse = static_cast<int>(file.root["accessors"].size()) - 1;
+  const json entries = sparse_entries(file, std::vector<std::uint16_t>{2}, kUnsignedShort, Floats{0, 0, 3});
+  const int sparse = zeros(file, kFloat, "VEC3", 3, {{"sparse", entries}});
   // Three shorts a vertex, in rows of eight bytes.
   const std::vector<std::int16_t> shorts{32767, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0};
   const int view = file.view(shorts, {{"byteStride", 8}});
-  const int quantised = file.add("accessors", {{"bufferView", view},
-                                               {"componentType", kShort},
-                                               {"normalized", true},
-                                               {"type", "VEC3"},
-                                               {"count", 3}});
+  const int quantised = accessor_of_view(file, view, kShort, "VEC3", 3, {{"normalized", true}});
   primitive["targets"] = {{{"POSITION", sparse}}, {{"POSITION", quantised}}};
   file.add("meshes", {{"primitives", {primitive}}, {"weights", {1.0, 2.0}}});
   file.node({{"mesh", 0}});
@@ -131,9 +129,7 @@ TEST(Morphs, NormalsFollow) {
 
 TEST(Morphs, ATargetOfAnotherLengthIsRefused) {
   GltfBuilder file;
-  json primitive = file.triangle();
-  primitive["targets"] = {{{"POSITION", vectors(file, {1, 0, 0})}}};
-  file.add("meshes", {{"primitives", {primitive}}, {"weights", {1.0}}});
+  add_morphs(file, {{1, 0, 0}}, {1.0});
   file.node({{"mesh", 0}});
   file.expect_refused({"POSITION", "1", "3"});
 }
@@ -159,8 +155,7 @@ TEST(Skins, VerticesFollowTheirJointsAndNotTheirNode) {
 
 TEST(Skins, JointsInheritFromTheirParents) {
   GltfBuilder file;
-  const Floats weights{0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0};
-  const int mesh = file.mesh(skinned_triangle(file, kBothJoints, weights));
+  const int mesh = file.mesh(skinned_triangle(file, kBothJoints, kOfSecond));
   const int first = file.node({{"name", "first"}});
   const float s = std::sqrt(0.5f);
   const int child = file.add("nodes", {{"translation", {2, 0, 0}}});
@@ -174,12 +169,8 @@ TEST(Skins, JointsInheritFromTheirParents) {
 }
 
 TEST(Skins, WeightsAreDividedByTheirSum) {
-  GltfBuilder file;
   const Floats weights{0, 0.25, 0, 0, 0, 8, 0, 0, 0, 0, 0, 0};
-  const int mesh = file.mesh(skinned_triangle(file, kBothJoints, weights));
-  add_skin(file, {{"translation", {0, 0, 4}}});
-  file.node({{"mesh", mesh}, {"skin", 0}});
-  const Mesh m = only_mesh(file.load());
+  const Mesh m = only_mesh(following_second({{"translation", {0, 0, 4}}}, weights).load());
   EXPECT_EQ(m.positions[0], Vec3(0, 0, 4));
   EXPECT_EQ(m.positions[1], Vec3(1, 0, 4));
   EXPECT_EQ(m.positions[2], Vec3(0, 1, 0)) << "no weights: the first joint";
@@ -203,7 +194,7 @@ TEST(Skins, EverySetOfJointsCounts) {
 
 TEST(Skins, NormalsStayPerpendicularUnderUnevenScale) {
   GltfBuilder file;
-  json primitive = skinned_triangle(file, kBothJoints, {0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0});
+  json primitive = skinned_triangle(file, kBothJoints, kOfSecond);
   const Vec3 n = Vec3(1, 1, 0).normalized();
   primitive["attributes"]["POSITION"] = vectors(file, {0, 0, 0, 1, -1, 0, 0, 0, -1});
   primitive["attributes"]["NORMAL"] = vectors(file, {n.x(), n.y(), 0, n.x(), n.y(), 0, n.x(), n.y(), 0});
@@ -218,11 +209,7 @@ TEST(Skins, NormalsStayPerpendicularUnderUnevenScale) {
 }
 
 TEST(Skins, MirroredJointsKeepFrontFacesAndNormalsTogether) {
-  GltfBuilder file;
-  const int mesh = file.mesh(skinned_triangle(file, kBothJoints, {0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0}));
-  add_skin(file, {{"scale", {-1, 1, 1}}});
-  file.node({{"mesh", mesh}, {"skin", 0}});
-  const Mesh m = only_mesh(file.load());
+  const Mesh m = only_mesh(following_second({{"scale", {-1, 1, 1}}}).load());
   const auto& t = m.triangles[0];
   const Vec3 front = (m.positions[t[1]] - m.positions[t[0]]).cross(m.positions[t[2]] - m.positions[t[0]]);
   EXPECT_EQ(m.normals[0], Vec3(0, 0, 1));
@@ -230,11 +217,9 @@ TEST(Skins, MirroredJointsKeepFrontFacesAndNormalsTogether) {
 }
 
 TEST(Skins, SingularJointsFlattenWithoutNonFiniteNumbers) {
-  GltfBuilder file;
-  const int mesh = file.mesh(skinned_triangle(file, kBothJoints, {0, 1, 0, 0, 0, 1, 0, 0, 1, 0, 0, 0}));
-  add_skin(file, {{"scale", {0, 0, 0}}, {"translation", {3, 3, 3}}});
-  file.node({{"mesh", mesh}, {"skin", 0}});
-  const Mesh m = only_mesh(file.load());
+  const Floats weights{0, 1, 0, 0, 0, 1, 0, 0, 1, 0, 0, 0};
+  const Mesh m =
+      only_mesh(following_second({{"scale", {0, 0, 0}}, {"translation", {3, 3, 3}}}, weights).load());
   EXPECT_EQ(m.positions[0], Vec3(3, 3, 3));
   EXPECT_EQ(m.positions[2], Vec3(0, 1, 0));
   for (const Vec3& n : m.normals) EXPECT_NEAR(n.norm(), 1.0f, 1e-5f);
@@ -242,9 +227,8 @@ TEST(Skins, SingularJointsFlattenWithoutNonFiniteNumbers) {
 
 TEST(Skins, OneSkinServesSeveralMeshesAndOneMeshSeveralSkins) {
   GltfBuilder file;
-  const Floats weights{0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0};
-  const int a = file.mesh(skinned_triangle(file, kBothJoints, weights));
-  const int b = file.mesh(skinned_triangle(file, kBothJoints, weights));
+  const int a = file.mesh(skinned_triangle(file, kBothJoints, kOfSecond));
+  const int b = file.mesh(skinned_triangle(file, kBothJoints, kOfSecond));
   add_skin(file, {{"translation", {1, 0, 0}}});
   add_skin(file, {{"translation", {2, 0, 0}}});
   file.node({{"mesh", a}, {"skin", 0}});
@@ -259,7 +243,7 @@ TEST(Skins, OneSkinServesSeveralMeshesAndOneMeshSeveralSkins) {
 
 TEST(Skins, MorphsComeBeforeTheSkin) {
   GltfBuilder file;
-  json primitive = skinned_triangle(file, kBothJoints, {0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0});
+  json primitive = skinned_triangle(file, kBothJoints, kOfSecond);
   primitive["targets"] = {{{"POSITION", vectors(file, {1, 0, 0, 1, 0, 0, 1, 0, 0})}}};
   file.add("meshes", {{"primitives", {primitive}}, {"weights", {1.0}}});
   const float s = std::sqrt(0.5f);
@@ -281,13 +265,9 @@ TEST(Skins, AMeshWithoutJointsFollowsTheFirstOneWithAWarning) {
 
 TEST(Skins, AJointThatIsNotThereIsRefusedWhereItHasWeight) {
   const auto file_with = [](float weight) {
-    GltfBuilder file;
     std::vector<std::uint8_t> joints = kBothJoints;
     joints[2] = 7;
-    const int mesh = file.mesh(skinned_triangle(file, joints, {1, 0, weight, 0, 1, 0, 0, 0, 1, 0, 0, 0}));
-    add_skin(file, {{"translation", {0, 0, 4}}});
-    file.node({{"mesh", mesh}, {"skin", 0}});
-    return file;
+    return following_second({{"translation", {0, 0, 4}}}, {1, 0, weight, 0, 1, 0, 0, 0, 1, 0, 0, 0}, joints);
   };
   file_with(0.5f).expect_refused({"JOINTS_0", "7", "2"});
   EXPECT_EQ(only_mesh(file_with(0.0f).load()).positions[0], Vec3(0, 0, 0));

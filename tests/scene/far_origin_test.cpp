@@ -3,26 +3,18 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/animated_file.h"
+#include "tests/support/gltf_parts.h"
 
 namespace gatelight::scene {
 namespace {
 
 using Place = Eigen::Vector3d;
 
-json skinned_triangle(AnimatedFile& file) {
-  json primitive = file.triangle();
-  primitive["attributes"]["JOINTS_0"] =
-      file.accessor(std::vector<std::uint8_t>(12, 0), kUnsignedByte, "VEC4", 3);
-  primitive["attributes"]["WEIGHTS_0"] =
-      file.accessor(std::vector<float>{1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}, kFloat, "VEC4", 3);
-  return primitive;
-}
-
 /// An instance, a skin, copies of a skin, a morph target, a camera and a light around a place. In a second
 /// the joint turns and the target grows.
 AnimatedFile scene_around(const Place& place) {
   AnimatedFile file;
-  file.root["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}}};
+  set_lights(file, {{{"type", "point"}}});
   json morphed = file.triangle();
   morphed["targets"] = {{{"POSITION", file.vectors({0, 0, 0.125f, 0, 0, 0.25f, 0, 0, 0.5f})}}};
   const int copies = file.vectors({0, 2, 0, 0, 3, 0.1f});
@@ -31,15 +23,13 @@ AnimatedFile scene_around(const Place& place) {
   json children = {joint};
   const auto child = [&](const json& node) { return children.emplace_back(file.add("nodes", node)); };
   child({{"mesh", file.mesh(file.triangle())}, {"translation", {-1.1, 0.7, 0}}});
-  child({{"mesh", file.mesh(skinned_triangle(file))}, {"skin", 0}});
-  child({{"mesh", file.mesh(skinned_triangle(file))},
+  child({{"mesh", file.mesh(triangle_of_joint(file))}, {"skin", 0}});
+  child({{"mesh", file.mesh(triangle_of_joint(file))},
          {"skin", 0},
-         {"extensions", {{"EXT_mesh_gpu_instancing", {{"attributes", {{"TRANSLATION", copies}}}}}}}});
+         {"extensions", instancing({{"TRANSLATION", copies}})}});
   const int growing = child({{"mesh", file.mesh(morphed)}, {"translation", {0, 0, -1.3}}});
-  child({{"camera",
-          file.add("cameras", {{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 0.1}}}})},
-         {"translation", {0.01, 0.02, 5}}});
-  child({{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}, {"translation", {0.6, 3.3, 0}}});
+  child({{"camera", camera(file)}, {"translation", {0.01, 0.02, 5}}});
+  child({{"extensions", light_of_node(0)}, {"translation", {0.6, 3.3, 0}}});
   file.node({{"children", children}, {"translation", {place.x(), place.y(), place.z()}}});
   file.move(joint, "rotation", {file.seconds({0, 1}), file.quaternions({0, 0, 0, 1, 0, 0, 1, 0})});
   file.move(growing, "weights", {file.seconds({0, 1}), file.scalars({0, 1})});
@@ -83,7 +73,7 @@ TEST(FarOrigin, OfASkinAloneIsItsPlace) {
   AnimatedFile file;
   const int joint = file.node({{"translation", {4.7e6, 9.4e5, 4.23e6}}});
   file.add("skins", {{"joints", {joint}}});
-  file.node({{"mesh", file.mesh(skinned_triangle(file))}, {"skin", 0}});
+  file.node({{"mesh", file.mesh(triangle_of_joint(file))}, {"skin", 0}});
   const Scene scene = file.load();
   EXPECT_NEAR(world_area(scene, scene.instances.at(0), 0), 0.5, 1e-6);
 }

@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "tests/support/gltf_builder.h"
+#include "tests/support/gltf_parts.h"
 #include "tests/support/png_checksums.h"
 
 namespace gatelight::scene {
@@ -57,13 +57,9 @@ const char* const kKtx2 = "data:image/ktx2;base64,q0tUWCAyMLsNChoKAAAAAA==";
 const char* const kDds = "data:image/vnd-ms.dds;base64,RERTIHwAAAAHEAAA";
 
 GltfBuilder with_image(const json& image) {
-  GltfBuilder file;
+  GltfBuilder file = triangle_of({{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}});
   file.add("images", image);
   file.add("textures", {{"source", 0}});
-  json primitive = file.triangle();
-  primitive["material"] =
-      file.add("materials", {{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}});
-  file.node({{"mesh", file.mesh(primitive)}});
   return file;
 }
 
@@ -84,8 +80,8 @@ TEST(Images, KeepEightBitsAndUnassociatedAlpha) {
 }
 
 TEST(Images, GreyStaysOneChannel) {
-  GltfBuilder file = with_image({{"mimeType", "image/png"}, {"name", "ramp"}});
-  file.root["images"][0]["bufferView"] = file.view(kGrey);
+  GltfBuilder file = with_bytes(kGrey);
+  file.root["images"][0]["name"] = "ramp";
   const Scene scene = file.load();
   EXPECT_EQ(scene.images.at(0).name, "ramp");
   EXPECT_EQ(scene.images.at(0).channels, 1);
@@ -116,8 +112,7 @@ TEST(Images, ColourProfilesAreIgnoredInSilence) {
     bytes.insert(bytes.end(), 8, 0);  // the content and a checksum, both wrong
   }
   bytes.insert(bytes.end(), kGrey.begin() + 33, kGrey.end());
-  GltfBuilder file = with_image({{"mimeType", "image/png"}});
-  file.root["images"][0]["bufferView"] = file.view(bytes);
+  GltfBuilder file = with_bytes(bytes);
   testing::internal::CaptureStderr();
   const Scene scene = file.load();
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
@@ -255,69 +250,68 @@ TEST(Images, WithoutAFallbackTheMessageNamesAConverter) {
   }
 }
 
+/// The folder of a scene within another one.
+struct SceneFolder {
+  TemporaryFolder outer;
+  std::filesystem::path inner = outer.path() / "scene";
+
+  explicit SceneFolder(const char* picture_outside) {
+    std::filesystem::create_directory(inner);
+    write_bytes(outer.path() / picture_outside, kGrey);
+  }
+  /// The path of a scene in the inner folder, or in `folder`.
+  std::filesystem::path with(const std::string& uri, std::filesystem::path folder = {}) const {
+    if (folder.empty()) folder = inner;
+    write_bytes(folder / "test.glb", with_image({{"uri", uri}}).glb());
+    return folder / "test.glb";
+  }
+};
+
 TEST(Images, PathsOutsideTheFolderAreRefused) {
-  const TemporaryFolder outer;
-  write_bytes(outer.path() / "secret.png", kGrey);
-  const std::filesystem::path inner = outer.path() / "scene";
-  std::filesystem::create_directory(inner);
-  const auto with = [&](const std::string& uri) {
-    write_bytes(inner / "test.glb", with_image({{"uri", uri}}).glb());
-    return inner / "test.glb";
-  };
+  const SceneFolder folder("secret.png");
+  const auto& [outer, inner] = folder;
   for (const std::string& uri :
        {std::string("../secret.png"), std::string("%2e%2e/secret.png"), std::string("a/../../secret.png"),
         (outer.path() / "secret.png").string(), "file://" + (outer.path() / "secret.png").string(),
         std::string("http://localhost/secret.png"), std::string("secret.png%00.png"),
         std::string("..\\secret.png")}) {
-    expect_refused(with(uri), {"images[0].uri", uri});
+    expect_refused(folder.with(uri), {"images[0].uri", uri});
   }
   write_bytes(inner / "own.png", kGrey);
-  EXPECT_EQ(refusal(with("sub/../own.png")), "");
+  EXPECT_EQ(refusal(folder.with("sub/../own.png")), "");
 }
 
 TEST(Images, ALinkOutOfTheFolderIsRefusedAndALinkWithinIsNot) {
-  const TemporaryFolder outer;
-  write_bytes(outer.path() / "secret.png", kGrey);
-  const std::filesystem::path inner = outer.path() / "scene";
-  std::filesystem::create_directory(inner);
+  const SceneFolder folder("secret.png");
+  const auto& [outer, inner] = folder;
   write_bytes(inner / "own.png", kGrey);
   std::filesystem::create_symlink("../secret.png", inner / "link.png");
   std::filesystem::create_symlink(outer.path(), inner / "up");
   std::filesystem::create_symlink("own.png", inner / "other.png");
   std::filesystem::create_symlink("none.png", inner / "dangling.png");
-  const auto with = [&](const std::filesystem::path& folder, const std::string& uri) {
-    write_bytes(folder / "test.glb", with_image({{"uri", uri}}).glb());
-    return folder / "test.glb";
-  };
   for (const char* uri : {"link.png", "up/secret.png", "up/scene/link.png", "%6cink.png"}) {
-    expect_refused(with(inner, uri), {"images[0].uri", uri, "`allow-external`"});
+    expect_refused(folder.with(uri), {"images[0].uri", uri, "`allow-external`"});
   }
-  expect_refused(with(inner, "dangling.png"), {"images[0]", "dangling.png"});
-  EXPECT_EQ(refusal(with(inner, "other.png")), "");
-  EXPECT_EQ(refusal(with(inner, "up/scene/own.png")), "");
+  expect_refused(folder.with("dangling.png"), {"images[0]", "dangling.png"});
+  EXPECT_EQ(refusal(folder.with("other.png")), "");
+  EXPECT_EQ(refusal(folder.with("up/scene/own.png")), "");
   // The folder itself may be reached by a link.
   std::filesystem::create_symlink("scene", outer.path() / "scene-link");
-  EXPECT_EQ(refusal(with(outer.path() / "scene-link", "other.png")), "");
+  EXPECT_EQ(refusal(folder.with("other.png", outer.path() / "scene-link")), "");
 }
 
 TEST(Images, FilesOfOtherFoldersAreReadWhereThatIsAllowed) {
-  const TemporaryFolder outer;
-  write_bytes(outer.path() / "grey 1.png", kGrey);
-  const std::filesystem::path inner = outer.path() / "scene";
-  std::filesystem::create_directory(inner);
+  const SceneFolder folder("grey 1.png");
+  const auto& [outer, inner] = folder;
   std::filesystem::create_symlink("../grey 1.png", inner / "link.png");
-  const auto with = [&](const std::string& uri) {
-    write_bytes(inner / "test.glb", with_image({{"uri", uri}}).glb());
-    return inner / "test.glb";
-  };
   const std::string absolute = outer.path().string() + "/grey%201.png";
   for (const std::string& uri :
        {std::string("../grey 1.png"), std::string("%2e%2e/grey%201.png"), std::string("link.png"), absolute,
         "file://" + absolute, "FILE://localhost" + absolute, "file:" + absolute}) {
-    EXPECT_EQ(refusal(with(uri), {.allow_external = true}), "") << uri;
+    EXPECT_EQ(refusal(folder.with(uri), {.allow_external = true}), "") << uri;
   }
   for (const char* host : {"http://localhost", "file://elsewhere"}) {
-    expect_refused(with(host + absolute), {"images[0].uri", host}, {.allow_external = true});
+    expect_refused(folder.with(host + absolute), {"images[0].uri", host}, {.allow_external = true});
   }
 }
 

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/support/gltf_builder.h"
+#include "tests/support/gltf_parts.h"
 
 namespace gatelight::scene {
 namespace {
@@ -35,14 +35,12 @@ GltfBuilder whole_file() {
   primitive["attributes"]["NORMAL"] =
       file.accessor(std::vector<float>{0, 0, 1, 0, 0, 1, 0, 0, 1}, kFloat, "VEC3", 3);
   file.root["extensionsUsed"] = {"KHR_lights_punctual"};
-  file.root["extensions"]["KHR_lights_punctual"]["lights"] = {
-      {{"type", "spot"}, {"spot", {{"innerConeAngle", 0.2}, {"outerConeAngle", 0.6}}}}};
+  set_lights(file, {{{"type", "spot"}, {"spot", {{"innerConeAngle", 0.2}, {"outerConeAngle", 0.6}}}}});
   file.node({{"name", "all"},
              {"mesh", file.mesh(primitive)},
-             {"camera", 0},
-             {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
+             {"camera", camera(file)},
+             {"extensions", light_of_node(0)}});
   file.node({{"camera", 1}});
-  file.add("cameras", {{"type", "perspective"}, {"perspective", {{"yfov", 1.0}, {"znear", 0.1}}}});
   file.add("cameras", {{"type", "orthographic"},
                        {"orthographic", {{"xmag", 1.0}, {"ymag", 1.0}, {"znear", 0.1}, {"zfar", 9.0}}}});
   file.root["scene"] = 0;
@@ -161,13 +159,11 @@ TEST(Lenient, SamplersRepeatWhereTheirModeIsUnknown) {
 
 TEST(Lenient, EmptyAndPositionlessPrimitivesAreLeftOut) {
   GltfBuilder file = whole_file();
-  const int none = file.add("accessors", {{"componentType", kFloat}, {"type", "VEC3"}, {"count", 0}});
+  const int none = zeros(file, kFloat, "VEC3", 0);
   const int some = file.positions({0, 0, 0, 1, 0, 0, 0, 1, 0});
-  const int no_index =
-      file.add("accessors", {{"componentType", kUnsignedInt}, {"type", "SCALAR"}, {"count", 0}});
+  const int no_index = zeros(file, kUnsignedInt, "SCALAR", 0);
   const int view = file.add("bufferViews", {{"buffer", 0}, {"byteLength", 0}});
-  const int empty_view = file.add(
-      "accessors", {{"componentType", kFloat}, {"type", "VEC3"}, {"count", 0}, {"bufferView", view}});
+  const int empty_view = accessor_of_view(file, view, kFloat, "VEC3", 0);
   for (const json& primitive :
        {json{{"attributes", json::object()}}, json{{"attributes", {{"NORMAL", some}}}},
         json{{"attributes", {{"POSITION", none}}}}, json{{"attributes", {{"POSITION", empty_view}}}},
@@ -205,8 +201,8 @@ TEST(Lenient, StridesOfAnySizeAreReadAsTheyAre) {
     const float xyz[3][3] = {{0, 0, 0}, {2, 0, 0}, {0, 3, 0}};
     for (std::size_t i = 0; i < 3; ++i) std::memcpy(&bytes[i * stride], xyz[i], 12);
     const int view = file.view(bytes, {{"byteStride", stride}});
-    file.root["meshes"][0]["primitives"][0]["attributes"]["POSITION"] = file.add(
-        "accessors", {{"componentType", kFloat}, {"type", "VEC3"}, {"count", 3}, {"bufferView", view}});
+    file.root["meshes"][0]["primitives"][0]["attributes"]["POSITION"] =
+        accessor_of_view(file, view, kFloat, "VEC3", 3);
     const Scene scene = file.load();
     EXPECT_EQ(scene.bounds.max(), Vec3(2, 3, 0)) << stride;
     expect_messages(scene.warnings, {{"byteStride", std::to_string(stride)}});
@@ -218,8 +214,7 @@ TEST(Lenient, ElementsThatTheSceneDoesNotShowMayBeBroken) {
   file.add("accessors", {{"componentType", 5130}, {"type", "QUAT"}});
   file.add("accessors", 5);
   file.add("bufferViews", {{"buffer", 9}, {"byteLength", -1}});
-  while (file.bin.size() % 4 != 0) file.bin.push_back(0);
-  file.root["buffers"] = {{{"byteLength", file.bin.size()}}, {{"byteLength", 12}, {"uri", "missing.bin"}}};
+  name_buffers(file, json::array({{{"byteLength", 12}, {"uri", "missing.bin"}}}));
   file.add("cameras", {{"type", "fisheye"}});
   file.add("images", {{"uri", "https://example.com/a.png"}});
   file.add("materials", {{"emissiveFactor", "bright"}});
@@ -247,8 +242,7 @@ TEST(Lenient, NodesOutsideTheSceneThatPlaceJointsAreRead) {
 }
 
 TEST(Lenient, ARootThatIsAChildIsShownOnce) {
-  GltfBuilder file;
-  file.node({{"mesh", file.mesh(file.triangle())}});
+  GltfBuilder file = triangle_file();
   file.node({{"children", {0}}, {"translation", {5, 0, 0}}});
   Scene scene = file.load();
   EXPECT_EQ(scene.instances.size(), 1u);
@@ -310,15 +304,15 @@ TEST(Lenient, BackslashesInUrisAreSlashes) {
 
 TEST(Lenient, ABufferMayEndEarlyWhereNothingIsRead) {
   GltfBuilder file = whole_file();
-  while (file.bin.size() % 4 != 0) file.bin.push_back(0);
-  file.root["buffers"] = {{{"byteLength", file.bin.size() + 1000}}};
+  name_buffers(file);
+  file.root["buffers"][0]["byteLength"] = file.bin.size() + 1000;
   const Scene scene = file.load();
   EXPECT_EQ(content(scene), content(whole_file().load()));
   expect_messages(scene.warnings, {{"buffers[0]", "byteLength"}});
   const int view =
       file.add("bufferViews", {{"buffer", 0}, {"byteOffset", file.bin.size()}, {"byteLength", 36}});
-  file.root["meshes"][0]["primitives"][0]["attributes"]["POSITION"] = file.add(
-      "accessors", {{"componentType", kFloat}, {"type", "VEC3"}, {"count", 3}, {"bufferView", view}});
+  file.root["meshes"][0]["primitives"][0]["attributes"]["POSITION"] =
+      accessor_of_view(file, view, kFloat, "VEC3", 3);
   file.expect_refused({"36 bytes", "buffer 0"});
 }
 

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/support/gltf_builder.h"
+#include "tests/support/gltf_parts.h"
 
 namespace gatelight::scene {
 namespace {
@@ -85,19 +85,13 @@ TEST(LightAdjustments, ALongListIsCutAndAnInfiniteProductIsRefused) {
 }
 
 TEST(LightAdjustments, TheLoaderAppliesAdjustments) {
-  GltfBuilder b;
-  b.root["extensionsUsed"] = {"KHR_lights_punctual"};
-  b.root["extensions"]["KHR_lights_punctual"]["lights"] = {
-      {{"type", "point"}, {"name", "bulb"}, {"intensity", 8.0}}};
-  b.root["nodes"] = {{{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}}};
-  b.root["scenes"] = {{{"nodes", {0}}}};
-  const TemporaryFolder folder;
-  const std::string file = folder.write("bulb.gltf", b.root.dump());
-  LoadOptions options;
-  options.lights = {{"bulb", Color(0.5f, 1.0f, 0.0f)}};
-  EXPECT_TRUE(same(load_gltf(file, options).lights.at(0).intensity, Color(4.0f, 8.0f, 0.0f)));
-  options.lights = {{"tube", Color::Ones()}};
-  expect_refused(file, {"'tube'", "'bulb'"}, options);
+  GltfBuilder file;
+  file.root["extensionsUsed"] = {"KHR_lights_punctual"};
+  set_lights(file, {{{"type", "point"}, {"name", "bulb"}, {"intensity", 8.0}}});
+  file.node({{"extensions", light_of_node(0)}});
+  const LoadOptions dimmed{.lights = {{"bulb", Color(0.5f, 1.0f, 0.0f)}}};
+  EXPECT_TRUE(same(file.load(dimmed).lights.at(0).intensity, Color(4.0f, 8.0f, 0.0f)));
+  file.expect_refused({"'tube'", "'bulb'"}, {.lights = {{"tube", Color::Ones()}}});
 }
 
 }  // namespace

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <iterator>
 
-#include "tests/support/gltf_builder.h"
+#include "tests/support/gltf_parts.h"
 
 namespace gatelight::scene {
 namespace {
@@ -264,11 +264,8 @@ TEST(Materials, AnAnisotropicMeshTakesTangentsFromItsTextureCoordinates) {
   ASSERT_EQ(scene.meshes.at(0).tangents.size(), 3u);
   EXPECT_TRUE(scene.meshes[0].tangents[0].isApprox(Vec4(1, 0, 0, 1))) << "along u";
   EXPECT_TRUE(scene.warnings.empty());
-  GltfBuilder bare;
-  json primitive = bare.triangle();
-  primitive["attributes"].erase("TEXCOORD_0");
-  primitive["material"] = bare.add("materials", anisotropic);
-  bare.node({{"mesh", bare.mesh(primitive)}});
+  GltfBuilder bare = triangle_of(anisotropic);
+  bare.root["meshes"][0]["primitives"][0]["attributes"].erase("TEXCOORD_0");
   const Scene without = bare.load();
   EXPECT_TRUE(without.meshes.at(0).tangents.empty());
   expect_messages(without.warnings, {{"anisotropic mesh"}});
@@ -303,11 +300,7 @@ TEST(Materials, ATexCoordSetBeyondTwoIsIgnoredWithAWarning) {
 
 TEST(Materials, WrongNumbersAreRefused) {
   const auto expect_refused = [](const json& material, const tests::NameList& names) {
-    GltfBuilder file;
-    json primitive = file.triangle();
-    primitive["material"] = file.add("materials", material);
-    file.node({{"mesh", file.mesh(primitive)}});
-    file.expect_refused(names);
+    triangle_of(material).expect_refused(names);
   };
   expect_refused({{"pbrMetallicRoughness", {{"baseColorFactor", {1, 1, 1}}}}}, {"baseColorFactor", "4"});
   expect_refused({{"emissiveFactor", {1, 1, "x"}}}, {"emissiveFactor[2]"});
@@ -371,9 +364,7 @@ TEST(Variants, ChooseTheMaterial) {
 
 TEST(Variants, AnUnknownNameIsRefusedWithTheKnownOnes) {
   with_variants().expect_refused({"dusk", "day", "night"}, {.variant = "dusk"});
-  GltfBuilder none;
-  none.node({{"mesh", none.mesh(none.triangle())}});
-  none.expect_refused({"dusk"}, {.variant = "dusk"});
+  triangle_file().expect_refused({"dusk"}, {.variant = "dusk"});
 }
 
 }  // namespace

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "tests/support/gltf_builder.h"
+#include "tests/support/gltf_parts.h"
 
 namespace gatelight::scene {
 namespace {
@@ -83,27 +83,20 @@ TEST(Nodes, ADeepChainNeitherOverflowsNorLosesItsPlace) {
   EXPECT_EQ(Vec3(only_mesh(scene).positions[0] + scene.origin), Vec3(0.5f * (depth - 1), 0, 0));
 }
 
-TEST(Nodes, CyclesAreRefused) {
-  GltfBuilder file;
-  file.node({{"children", {1}}});
-  file.add("nodes", {{"children", {2}}});
-  file.add("nodes", {{"children", {0}}});
-  file.expect_refused({"nodes[0]", "ancestor"});
-}
-
-TEST(Nodes, TwoParentsAreRefused) {
-  GltfBuilder file;
-  file.add("nodes", {{"mesh", file.mesh(file.triangle())}});
-  file.node({{"children", {0}}});
-  file.node({{"children", {0}}});
-  file.expect_refused({"nodes[2].children", "node 0", "node 1"});
-}
-
-TEST(Nodes, OverflowAlongTheHierarchyIsRefused) {
-  GltfBuilder file;
-  file.add("nodes", {{"mesh", file.mesh(file.triangle())}, {"scale", {1e30, 1, 1}}});
-  file.node({{"children", {0}}, {"scale", {1e30, 1, 1}}});
-  file.expect_refused({"nodes[0]"});
+TEST(Nodes, CyclesTwoParentsAndOverflowAlongTheHierarchyAreRefused) {
+  const auto refuse = [](const json& nodes, const json& roots, const tests::NameList& names) {
+    GltfBuilder file;
+    file.mesh(file.triangle());
+    file.root["nodes"] = nodes;
+    file.root["scenes"] = {{{"nodes", roots}}};
+    file.expect_refused(names);
+  };
+  const json parent = {{"children", {0}}};
+  refuse({{{"children", {1}}}, {{"children", {2}}}, parent}, json::array({0}), {"nodes[0]", "ancestor"});
+  refuse({{{"mesh", 0}}, parent, parent}, {1, 2}, {"nodes[2].children", "node 0", "node 1"});
+  const json huge = {1e30, 1, 1};
+  refuse({{{"mesh", 0}, {"scale", huge}}, {{"children", {0}}, {"scale", huge}}}, json::array({1}),
+         {"nodes[0]"});
 }
 
 TEST(Nodes, MeshesScaledToNothingAreLeftOut) {
@@ -145,8 +138,8 @@ TEST(Nodes, ReadThePriorityOfAMediumFromTheirExtras) {
 TEST(Nodes, HiddenNodesShowNeitherMeshesNorLights) {
   GltfBuilder file;
   file.root["extensionsUsed"] = {"KHR_lights_punctual", "KHR_node_visibility"};
-  file.root["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}}};
-  file.root["cameras"] = {{{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 0.1}}}}};
+  set_lights(file, {{{"type", "point"}}});
+  camera(file);
   const auto visible = [](bool value) { return json{{"visible", value}}; };
   const int mesh = file.mesh(file.triangle());
   // A visible child of a hidden parent is still hidden. Cameras are not affected.
@@ -223,17 +216,17 @@ TEST(Cameras, StandWhereTheirNodesPutThem) {
 TEST(Lights, CarryIntensityPlaceAndCone) {
   GltfBuilder file;
   file.root["extensionsUsed"] = {"KHR_lights_punctual"};
-  file.root["extensions"]["KHR_lights_punctual"]["lights"] = {
+  const json lights = {
       {{"type", "directional"}, {"name", "sun"}, {"intensity", 3}, {"color", {1, 0.5, 0.25}}},
       {{"type", "point"}, {"range", 12}},
       {{"type", "spot"}, {"intensity", 2}, {"spot", {{"innerConeAngle", 0.3}, {"outerConeAngle", 0.6}}}},
       {{"type", "spot"}, {"spot", json::object()}}};
+  set_lights(file, lights);
   const float s = std::sqrt(0.5f);
-  const auto light = [](int index) { return json{{"KHR_lights_punctual", {{"light", index}}}}; };
-  file.node({{"extensions", light(0)}, {"rotation", {-s, 0, 0, s}}, {"scale", {5, 5, 5}}});
-  file.node({{"extensions", light(1)}, {"translation", {1, 2, 3}}, {"name", "lamp"}});
-  file.node({{"extensions", light(2)}});
-  file.node({{"extensions", light(3)}});
+  file.node({{"extensions", light_of_node(0)}, {"rotation", {-s, 0, 0, s}}, {"scale", {5, 5, 5}}});
+  file.node({{"extensions", light_of_node(1)}, {"translation", {1, 2, 3}}, {"name", "lamp"}});
+  file.node({{"extensions", light_of_node(2)}});
+  file.node({{"extensions", light_of_node(3)}});
   const Scene scene = file.load();
   EXPECT_TRUE(scene.warnings.empty());
   ASSERT_EQ(scene.lights.size(), 4u);
@@ -321,9 +314,7 @@ TEST(Instancing, PlacesTheMeshInEachTransform) {
   const int scale = file.accessor(std::vector<float>{1, 1, 1, 2, 3, 4}, kFloat, "VEC3", 2);
   file.node({{"mesh", file.mesh(file.triangle())},
              {"translation", {0, 0, 1}},
-             {"extensions",
-              {{"EXT_mesh_gpu_instancing",
-                {{"attributes", {{"TRANSLATION", t}, {"ROTATION", r}, {"SCALE", scale}}}}}}}});
+             {"extensions", instancing({{"TRANSLATION", t}, {"ROTATION", r}, {"SCALE", scale}})}});
   const Scene scene = file.load({.bake_transforms = false});
   ASSERT_EQ(scene.instances.size(), 2u);
   EXPECT_TRUE(world_triangle(scene, scene.instances[0], 0)[1].isApprox(Vec3(1, 0, 1)));
@@ -336,8 +327,7 @@ TEST(Instancing, CountsThatDifferAreRefused) {
   const int t = file.accessor(std::vector<float>(6, 0.0f), kFloat, "VEC3", 2);
   const int scale = file.accessor(std::vector<float>(9, 1.0f), kFloat, "VEC3", 3);
   file.node({{"mesh", file.mesh(file.triangle())},
-             {"extensions",
-              {{"EXT_mesh_gpu_instancing", {{"attributes", {{"TRANSLATION", t}, {"SCALE", scale}}}}}}}});
+             {"extensions", instancing({{"TRANSLATION", t}, {"SCALE", scale}})}});
   file.expect_refused({"accessors[0]", "2", "TRANSLATION", "nodes[0]", "3"});
 }
 
@@ -348,8 +338,7 @@ TEST(Instancing, CustomAttributesSetTheCountToo) {
     if (count > 0) {
       attributes["_ID"] = file.accessor(std::vector<float>{7, 8}, kFloat, "SCALAR", 2);
     }
-    file.node({{"mesh", file.mesh(file.triangle())},
-               {"extensions", {{"EXT_mesh_gpu_instancing", {{"attributes", attributes}}}}}});
+    file.node({{"mesh", file.mesh(file.triangle())}, {"extensions", instancing(attributes)}});
     const Scene scene = file.load({.bake_transforms = false});
     ASSERT_EQ(scene.instances.size(), count > 0 ? 2u : 1u);
     EXPECT_TRUE(world_triangle(scene, scene.instances.back(), 0)[1].isApprox(Vec3(1, 0, 0)));

@@ -6,6 +6,7 @@
 
 #include "scene/gltf.h"
 #include "tests/support/animated_file.h"
+#include "tests/support/gltf_parts.h"
 
 namespace gatelight::scene {
 namespace {
@@ -59,8 +60,8 @@ TEST(SceneFile, ShowsTimesInAnyOrder) {
 
 TEST(SceneFile, ClaimsItsMemoryOnce) {
   AnimatedFile file = moving_triangle({{"translation", {1e6, 0, 0}}});
-  const int places = file.add("accessors", {{"componentType", kFloat}, {"type", "VEC3"}, {"count", 300'000}});
-  file.root["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"]["TRANSLATION"] = places;
+  const int places = zeros(file, kFloat, "VEC3", 300'000);
+  file.root["nodes"][0]["extensions"] = instancing({{"TRANSLATION", places}});
   file.move(0, "translation", {file.seconds({0, 1}), file.vectors({1e6f, 0, 0, 1e6f, 1, 0})});
   const TemporaryFolder folder;
   SceneFile open(file.write(folder), {.time = 0.0});
@@ -94,8 +95,8 @@ TEST(SceneFile, OnlyWhatMovesStaysAnInstance) {
 TEST(SceneFile, LightsThatAreAdjustedStayAdjusted) {
   AnimatedFile file;
   file.node({{"mesh", file.mesh(file.triangle())}});
-  file.root["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}, {"name", "lamp"}}};
-  file.node({{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
+  set_lights(file, {{{"type", "point"}, {"name", "lamp"}}});
+  file.node({{"extensions", light_of_node(0)}});
   file.move(1, "translation", {file.seconds({0, 1}), file.vectors({0, 0, 0, 4, 0, 0})});
   tests::TemporaryFolder folder;
   SceneFile open(file.write(folder), {.time = 0.0, .lights = {{"lamp", Color(3, 2, 1)}}});

@@ -8,6 +8,7 @@
 
 #include "scene/gltf.h"
 #include "tests/support/animated_file.h"
+#include "tests/support/gltf_parts.h"
 
 namespace gatelight::scene {
 namespace {
@@ -76,10 +77,9 @@ TEST(Shutter, MovesLinearlyBetweenItsStates) {
 }
 
 TEST(Shutter, LightsTurnAndMove) {
-  AnimatedFile file;
-  file.node({{"mesh", file.mesh(file.triangle())}});
-  file.root["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "spot"}, {"spot", json::object()}}};
-  file.node({{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
+  AnimatedFile file = moving_triangle();
+  set_lights(file, {{{"type", "spot"}, {"spot", json::object()}}});
+  file.node({{"extensions", light_of_node(0)}});
   file.move(1, "translation", {file.seconds({0, 1}), file.vectors({0, 0, 0, 4, 0, 0})});
   const float half = std::sqrt(0.5f);
   file.move(1, "rotation", {file.seconds({0, 1}), file.quaternions({0, 0, 0, 1, 0, half, 0, half})});

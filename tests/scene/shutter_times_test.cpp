@@ -7,6 +7,7 @@
 #include "scene/gltf.h"
 #include "scene/shutter.h"
 #include "tests/support/animated_file.h"
+#include "tests/support/gltf_parts.h"
 
 namespace gatelight::scene {
 namespace {
@@ -77,22 +78,14 @@ TEST(ShutterTimes, TurnsAreArcs) {
 
 TEST(ShutterTimes, TurnsBelongToAllThatIsBelow) {
   AnimatedFile file;
-  json primitive = file.triangle();
-  primitive["attributes"]["JOINTS_0"] =
-      file.accessor(std::vector<std::uint8_t>(12, 0), kUnsignedByte, "VEC4", 3);
-  primitive["attributes"]["WEIGHTS_0"] =
-      file.accessor(std::vector<float>{1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}, kFloat, "VEC4", 3);
-  file.root["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}}};
+  set_lights(file, {{{"type", "point"}}});
   const int child = file.add("nodes", {{"mesh", file.mesh(file.triangle())}, {"translation", {2, 0, 0}}});
-  const int camera =
-      file.add("cameras", {{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 0.1}}}});
-  const int eye = file.add("nodes", {{"camera", camera}, {"translation", {0, 2, 0}}});
-  const int lamp = file.add(
-      "nodes", {{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}, {"translation", {2, 0, 0}}});
+  const int eye = file.add("nodes", {{"camera", camera(file)}, {"translation", {0, 2, 0}}});
+  const int lamp = file.add("nodes", {{"extensions", light_of_node(0)}, {"translation", {2, 0, 0}}});
   const int joint = file.add("nodes", {{"translation", {1, 0, 0}}});
   const int hub = file.node({{"children", {child, eye, lamp, joint}}});
   file.add("skins", {{"joints", {joint}}});
-  file.node({{"mesh", file.mesh(primitive)}, {"skin", 0}});
+  file.node({{"mesh", file.mesh(triangle_of_joint(file))}, {"skin", 0}});
   file.move(hub, "rotation", turns(file, 2));
   const Scene scene = file.load(kOneSecond);
   for (const float time : {0.013f, 0.31f, 0.5f, 0.77f}) {

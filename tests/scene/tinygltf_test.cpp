@@ -4,18 +4,10 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "tests/support/gltf_builder.h"
+#include "tests/support/gltf_parts.h"
 
 namespace gatelight::scene {
 namespace {
-
-GltfBuilder triangle_file(const json& material = json::object()) {
-  GltfBuilder file;
-  json primitive = file.triangle();
-  primitive["material"] = file.add("materials", material);
-  file.node({{"mesh", file.mesh(primitive)}});
-  return file;
-}
 
 TEST(Tinygltf, AnyChunksAndLengthsOfAGlbAreRead) {
   GltfBuilder file = triangle_file();
@@ -70,7 +62,7 @@ TEST(Tinygltf, ManyEmptyObjectsAreRefused) {
 /// Values that the loader does not use are not kept, whatever they are.
 TEST(Tinygltf, UnknownValuesAreIgnored) {
   GltfBuilder file =
-      triangle_file({{"extensions", {{"ACME_strange", {{"a", {1, nullptr, "b"}}}}}}, {"extras", 5}});
+      triangle_of({{"extensions", {{"ACME_strange", {{"a", {1, nullptr, "b"}}}}}}, {"extras", 5}});
   file.root["animations"] = "none";
   file.root["accessors"][0]["min"] = "small";
   file.root["images"] = {{{"uri", "absent.png"}, {"width", 1e300}}};

@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "tests/support/gltf_builder.h"
+#include "tests/support/gltf_parts.h"
 
 namespace gatelight::scene {
 namespace {
@@ -21,17 +21,11 @@ Scene load_polygon(int mode, const std::vector<std::uint32_t>& indices) {
   return file.load();
 }
 
-TEST(Topology, StripsAlternateTheirWinding) {
+TEST(Topology, StripsAlternateTheirWindingAndFansTurnAroundTheFirstVertex) {
   EXPECT_THAT(load_polygon(5, {}).meshes.at(0).triangles,
               ElementsAre(Triangle{0, 1, 2}, Triangle{1, 3, 2}, Triangle{2, 3, 4}));
-}
-
-TEST(Topology, FansTurnAroundTheFirstVertex) {
   EXPECT_THAT(load_polygon(6, {}).meshes.at(0).triangles,
               ElementsAre(Triangle{1, 2, 0}, Triangle{2, 3, 0}, Triangle{3, 4, 0}));
-}
-
-TEST(Topology, IndexedStripsAndFansFollowTheirIndices) {
   EXPECT_THAT(load_polygon(5, {4, 3, 2, 1, 0}).meshes.at(0).triangles,
               ElementsAre(Triangle{4, 3, 2}, Triangle{3, 1, 2}, Triangle{2, 1, 0}));
   EXPECT_THAT(load_polygon(6, {4, 0, 1, 2, 3}).meshes.at(0).triangles,
@@ -110,18 +104,16 @@ TEST(Topology, BrokenNormalsAreReplacedByTriangleNormals) {
 }
 
 TEST(Topology, MissingNormalsStayMissing) {
-  GltfBuilder file;
-  file.node({{"mesh", file.mesh(file.triangle())}});
-  EXPECT_TRUE(only_mesh(file.load()).normals.empty());
+  EXPECT_TRUE(only_mesh(triangle_file().load()).normals.empty());
 }
 
 // A file of some hundred bytes could contain counts that need gigabytes.
 TEST(Claims, TooMuchGeometryForTheFileIsRefused) {
   const auto with_primitives = [](int primitives, std::size_t count) {
     GltfBuilder file;
-    const int zeros = file.add("accessors", {{"componentType", kFloat}, {"type", "VEC3"}, {"count", count}});
+    const int accessor = zeros(file, kFloat, "VEC3", count);
     json list = json::array();
-    for (int i = 0; i < primitives; ++i) list.push_back({{"attributes", {{"POSITION", zeros}}}});
+    for (int i = 0; i < primitives; ++i) list.push_back({{"attributes", {{"POSITION", accessor}}}});
     file.node({{"mesh", file.add("meshes", {{"primitives", list}})}});
     return file;
   };
@@ -133,14 +125,11 @@ TEST(Claims, TooMuchGeometryForTheFileIsRefused) {
 TEST(Claims, TooManyInstancesForTheFileAreRefused) {
   const auto with_nodes = [](int nodes, std::size_t count, int primitives) {
     GltfBuilder file;
-    const int zeros = file.add("accessors", {{"componentType", kFloat}, {"type", "VEC3"}, {"count", count}});
+    const json places = {{"TRANSLATION", zeros(file, kFloat, "VEC3", count)}};
     json list = json::array();
     for (int i = 0; i < primitives; ++i) list.push_back(file.triangle());
     const int mesh = file.add("meshes", {{"primitives", list}});
-    for (int i = 0; i < nodes; ++i) {
-      file.node({{"mesh", mesh},
-                 {"extensions", {{"EXT_mesh_gpu_instancing", {{"attributes", {{"TRANSLATION", zeros}}}}}}}});
-    }
+    for (int i = 0; i < nodes; ++i) file.node({{"mesh", mesh}, {"extensions", instancing(places)}});
     return file;
   };
   EXPECT_EQ(with_nodes(2, 100, 2).refused(), "");
