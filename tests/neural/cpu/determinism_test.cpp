@@ -3,17 +3,16 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>
-#include <unistd.h>
 
 #include <cstring>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
+#include <string>
+#include <vector>
 
 #include "neural/cpu/cpu_backend.h"
 #include "neural/trainer.h"
 #include "tests/support/model_batches.h"
 #include "tests/support/model_cases.h"
+#include "tests/support/temporary_folder.h"
 
 namespace gatelight::neural {
 namespace {
@@ -34,11 +33,6 @@ auto on_threads(int threads, F&& body) {
   const tbb::global_control control(tbb::global_control::max_allowed_parallelism, 8);
   tbb::task_arena arena(threads);
   return arena.execute(body);
-}
-
-std::string read_bytes(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
 }
 
 struct Outcome {
@@ -62,11 +56,9 @@ Outcome train(const std::shared_ptr<const Model>& model, const TrainingOptions& 
   const std::span<float> out = outcome.answers;
   trainer.query(points.points(), {}, out.first(count));
   trainer.query(points.points(), {QueryPrecision::bf16}, out.last(count));
-  const std::filesystem::path path =
-      std::filesystem::temp_directory_path() / fmt::format("gatelight_determinism_{}.safetensors", getpid());
-  trainer.save(path, "determinism");
-  outcome.file = read_bytes(path);
-  std::filesystem::remove(path);
+  const tests::TemporaryFolder folder;
+  trainer.save(folder / "cache", "determinism");
+  outcome.file = tests::read_file(folder / "cache");
   return outcome;
 }
 

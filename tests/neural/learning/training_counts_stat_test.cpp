@@ -27,24 +27,18 @@ double expected_weight(std::uint32_t count) {
   return 1.0 / std::min(512.0, std::max(1.0, static_cast<double>(count)));
 }
 
-struct Choice {
-  std::vector<std::uint32_t> candidates;
-  std::vector<std::uint32_t> counts;
-};
-
-void expect_choices_by_weight(const Choice& choice, std::uint64_t seed) {
-  const std::size_t n = choice.candidates.size();
+void expect_choices_by_weight(const std::vector<std::uint32_t>& candidates,
+                              const std::vector<std::uint32_t>& counts, std::uint64_t seed) {
+  const std::size_t n = candidates.size();
   std::vector<double> expected(n);
-  for (std::size_t i = 0; i < n; ++i) {
-    const std::uint32_t triangle = choice.candidates[i];
-    expected[i] = expected_weight(triangle < choice.counts.size() ? choice.counts[triangle] : 0);
-  }
+  for (std::size_t i = 0; i < n; ++i)
+    expected[i] = expected_weight(candidates[i] < counts.size() ? counts[candidates[i]] : 0);
   const double total = std::accumulate(expected.begin(), expected.end(), 0.0);
   for (double& value : expected) value *= static_cast<double>(kSamples) / total;
   std::vector<double> observed(n, 0.0);
   Random random(seed);
   for (std::size_t i = 0; i < kSamples; ++i) {
-    const std::size_t index = choose_candidate(choice.candidates, choice.counts, random.uniform_float());
+    const std::size_t index = choose_candidate(candidates, counts, random.uniform_float());
     ASSERT_LT(index, n);
     observed[index] += 1.0;
   }
@@ -68,19 +62,14 @@ TEST(TrainingCounts, WeightIsTheInverseOfTheCountClampedTo1And512) {
 }
 
 TEST(TrainingCounts, ChoiceFollowsTheWeights) {
-  Choice choice{every_third_triangle(), std::vector<std::uint32_t>(3 * kCandidates)};
-  for (std::uint32_t i = 0; i < choice.counts.size(); ++i) choice.counts[i] = i % 7;
-  choice.counts[3] = 400;
-  choice.counts[6] = 100000;
-  expect_choices_by_weight(choice, 1);
-}
-
-TEST(TrainingCounts, ACandidateNamedTwiceHasTwiceTheChance) {
-  expect_choices_by_weight({{5, 2, 5, 1}, {9, 1, 4, 9, 9, 2}}, 2);
-}
-
-TEST(TrainingCounts, ACandidateOutsideTheCountsIsUntrained) {
-  expect_choices_by_weight({{0, 7, 1, 0xffffffffu}, {3, 512}}, 3);
+  std::vector<std::uint32_t> counts(3 * kCandidates);
+  for (std::uint32_t i = 0; i < counts.size(); ++i) counts[i] = i % 7;
+  counts[3] = 400;
+  counts[6] = 100000;
+  expect_choices_by_weight(every_third_triangle(), counts, 1);
+  // A candidate that is named twice has twice the chance, and one outside the counts is untrained.
+  expect_choices_by_weight({5, 2, 5, 1}, {9, 1, 4, 9, 9, 2}, 2);
+  expect_choices_by_weight({0, 7, 1, 0xffffffffu}, {3, 512}, 3);
 }
 
 TEST(TrainingCounts, EqualCountsAreTheUniformChoiceExactly) {

@@ -34,7 +34,9 @@ TEST(CacheFileMismatch, AnotherConfigurationIsRefusedWithTheDifference) {
   struct Case {
     Change change;
     NameList names;
+    ModelConfig base = default_gate_config();
   };
+  const ModelConfig hash = default_hash_config(), plain = default_plain_config();
   const std::vector<Case> cases = {
       {[](ModelConfig& c) { c.mlp.width = 64; }, {"hidden width", "64", "32"}},
       {[](ModelConfig& c) { c.mlp.hidden_layers = 3; }, {"hidden layers", "3", "2"}},
@@ -58,42 +60,22 @@ TEST(CacheFileMismatch, AnotherConfigurationIsRefusedWithTheDifference) {
          c.gate.cluster = false;
        },
        {"storage", "per_triangle", "shared"}},
+      {[](ModelConfig& c) { c.hash_grid.log2_table_size = 9; }, {"log2 table size", "9", "10"}, hash},
+      {[](ModelConfig& c) { c.hash_grid.growth = 1.5f; }, {"growth", "1.5", "2"}, hash},
+      {[](ModelConfig& c) { c.hash_grid.bounds_max[1] = 10; }, {"bounds max y", "10", "1"}, hash},
+      {[](ModelConfig& c) { c.hash_grid.bounds_min[2] = -0.75f; }, {"bounds min z", "-0.75", "-0.5"}, hash},
+      // A position is an input: the bounds count without a hash grid, too.
+      {[](ModelConfig& c) { c.hash_grid.bounds_min[0] = -5; }, {"bounds min x", "-5", "-1"}, plain},
   };
-  Trainer trainer = make_trainer(make_case("model", default_gate_config()), {}, 2);
-  const ModelState before = state_of(trainer);
   for (const Case& c : cases) {
-    ModelConfig config = default_gate_config();
+    Trainer trainer = make_trainer(make_case("model", c.base), {}, 2);
+    const ModelState before = state_of(trainer);
+    ModelConfig config = c.base;
     c.change(config);
     make_trainer(make_case("file", config), {}, 1).save(folder / "a", kFingerprint);
     expect_load_refused(trainer, folder / "a", c.names);
     EXPECT_TRUE(same_bits(state_of(trainer), before));
   }
-}
-
-TEST(CacheFileMismatch, AnotherHashGridIsRefusedWithTheDifference) {
-  const TemporaryFolder folder;
-  const std::vector<std::pair<Change, NameList>> cases = {
-      {[](ModelConfig& c) { c.hash_grid.log2_table_size = 9; }, {"log2 table size", "9", "10"}},
-      {[](ModelConfig& c) { c.hash_grid.growth = 1.5f; }, {"growth", "1.5", "2"}},
-      {[](ModelConfig& c) { c.hash_grid.bounds_max[1] = 10; }, {"bounds max y", "10", "1"}},
-      {[](ModelConfig& c) { c.hash_grid.bounds_min[2] = -0.75f; }, {"bounds min z", "-0.75", "-0.5"}},
-  };
-  for (const auto& [change, names] : cases) {
-    ModelConfig config = default_hash_config();
-    change(config);
-    make_trainer(make_case("file", config), {}, 1).save(folder / "a", kFingerprint);
-    Trainer trainer = make_trainer(make_case("model", default_hash_config()), {}, 2);
-    expect_load_refused(trainer, folder / "a", names);
-  }
-}
-
-TEST(CacheFileMismatch, BoundsOfAPositionInputCountWithoutAHashGridToo) {
-  const TemporaryFolder folder;
-  ModelConfig config = default_plain_config();
-  make_trainer(make_case("file", config), {}, 1).save(folder / "a", kFingerprint);
-  config.hash_grid.bounds_min[0] = -5;
-  Trainer trainer = make_trainer(make_case("model", config), {}, 2);
-  expect_load_refused(trainer, folder / "a", {"bounds min x", "-1", "-5"});
 }
 
 TEST(CacheFileMismatch, OtherSurfacesUnderEqualOptionsAreRefused) {

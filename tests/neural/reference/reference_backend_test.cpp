@@ -42,25 +42,14 @@ TEST(ReferenceBackend, BatchesWithSpansOfTheWrongLengthAreRefusedAndChangeNothin
     EXPECT_THROW(backend->train(batch.training()), BadConfiguration);
     EXPECT_EQ(backend->export_state(), state);
   };
-  refuses([](OwnedBatch& b) { b.surfaces.clear(); });
-  refuses([](OwnedBatch& b) { b.surfaces.pop_back(); });
-  refuses([](OwnedBatch& b) { b.triangles.clear(); });
-  refuses([](OwnedBatch& b) { b.triangles.pop_back(); });
-  refuses([](OwnedBatch& b) { b.barycentrics.clear(); });
-  refuses([](OwnedBatch& b) { b.barycentrics.pop_back(); });
-  refuses([](OwnedBatch& b) { b.positions.clear(); });
-  refuses([](OwnedBatch& b) { b.positions.pop_back(); });
-  refuses([](OwnedBatch& b) { b.directions.clear(); });
-  refuses([](OwnedBatch& b) { b.directions.pop_back(); });
-  refuses([](OwnedBatch& b) { b.normals.clear(); });
-  refuses([](OwnedBatch& b) { b.normals.pop_back(); });
-  refuses([](OwnedBatch& b) { b.albedos.clear(); });
-  refuses([](OwnedBatch& b) { b.albedos.pop_back(); });
-  refuses([](OwnedBatch& b) { b.roughnesses.clear(); });
-  refuses([](OwnedBatch& b) { b.roughnesses.pop_back(); });
-  refuses([](OwnedBatch& b) { b.targets.clear(); });
+  const auto refuses_lengths = [&](auto... spans) {
+    for (const std::size_t size : {0u, 4u, 6u})
+      (refuses([&](OwnedBatch& b) { (b.*spans).resize(size); }), ...);
+  };
+  refuses_lengths(&OwnedBatch::surfaces, &OwnedBatch::triangles, &OwnedBatch::barycentrics,
+                  &OwnedBatch::positions, &OwnedBatch::directions, &OwnedBatch::normals, &OwnedBatch::albedos,
+                  &OwnedBatch::roughnesses, &OwnedBatch::targets);
   refuses([](OwnedBatch& b) { b.targets.pop_back(); });
-  refuses([](OwnedBatch& b) { b.directions.push_back({0, 0, 1}); });
   const OwnedBatch batch = make_batch(*model, 5, 1);
   std::vector<float> few(5 * 3 - 1);
   EXPECT_THROW(backend->query(batch.points(), {}, few), BadConfiguration);

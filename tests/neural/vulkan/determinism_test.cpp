@@ -1,13 +1,11 @@
 // Results have the same bits each time, however arrays are split and steps overlap. States can move between
 // devices.
 
-#include <unistd.h>
-#include <filesystem>
-
 #include "neural/trainer.h"
 #include "neural/vulkan/feature_store.h"
 #include "tests/neural/vulkan/agreement.h"
 #include "tests/support/stored_state.h"
+#include "tests/support/temporary_folder.h"
 
 namespace gatelight::neural {
 namespace {
@@ -143,8 +141,8 @@ TEST_F(VulkanDeterminism, ACacheMovesBetweenDevices) {
   const TrainingOptions options;
   Trainer device(c.model, options, make_vulkan_backend(test_machine(), c.model, options));
   for (const OwnedBatch& batch : some_batches(*c.model)) device.train(batch.training());
-  const std::filesystem::path path =
-      std::filesystem::temp_directory_path() / fmt::format("gatelight_vulkan_{}.safetensors", getpid());
+  const tests::TemporaryFolder folder;
+  const std::filesystem::path path = folder / "cache";
   device.save(path, "moves");
   Trainer host(c.model, options, cpu::make_cpu_backend(c.model, options));
   host.load(path, "moves");
@@ -157,7 +155,6 @@ TEST_F(VulkanDeterminism, ACacheMovesBetweenDevices) {
   host.save(path, "moves");
   device.load(path, "moves");
   EXPECT_TRUE(same_bits(host.backend().export_state(), device.backend().export_state()));
-  std::filesystem::remove(path);
 }
 
 }  // namespace
