@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "tests/support/animated_file.h"
 #include "tests/support/gltf_parts.h"
+#include "tests/support/moved_triangle.h"
 
 namespace gatelight::scene {
 namespace {
@@ -154,14 +154,7 @@ TEST(AnimationPointers, NodesAsByTheirPaths) {
 }
 
 TEST(AnimationPointers, SingleWeightsAndThoseOfMeshes) {
-  AnimatedFile file;
-  json primitive = file.triangle();
-  for (int k = 0; k < 2; ++k)
-    primitive["targets"].push_back(
-        {{"POSITION", file.vectors({k == 0 ? 1.0f : 0.0f, k == 0 ? 0.0f : 1.0f, 0, 0, 0, 0, 0, 0, 0})}});
-  file.add("meshes", {{"primitives", {primitive}}, {"weights", {0.25, 0.5}}});
-  file.node({{"mesh", 0}});
-  AnimatedFile of_mesh = file;
+  AnimatedFile file = morphing_triangle(), of_mesh = file;
   file.move("/nodes/0/weights/1", {file.seconds({0, 1}), file.scalars({0, 4})});
   EXPECT_EQ(only_mesh(file.at(0.25)).positions[0], Vec3(0.25f, 1, 0)) << "the other keeps the mesh's";
   of_mesh.move("/meshes/0/weights", {of_mesh.seconds({0, 1}), of_mesh.scalars({0, 0, 4, 8})});

@@ -7,8 +7,8 @@
 #include <cstdlib>
 
 #include "scene/gltf/animation.h"
-#include "tests/support/animated_file.h"
 #include "tests/support/gltf_parts.h"
+#include "tests/support/moved_triangle.h"
 
 namespace gatelight::scene {
 namespace {
@@ -48,8 +48,7 @@ TEST(Animations, WithoutATimeNothingMoves) {
 }
 
 TEST(Animations, LinearKeysJoinByStraightLines) {
-  AnimatedFile file = moving_triangle();
-  file.move(0, "translation", {file.seconds({1, 3, 4}), file.vectors({0, 0, 0, 8, -4, 2, 8, 0, 0})});
+  AnimatedFile file = translated_triangle({1, 3, 4}, {0, 0, 0, 8, -4, 2, 8, 0, 0});
   EXPECT_EQ(file.place_at(1.0), Vec3(0, 0, 0));
   EXPECT_EQ(file.place_at(1.5), Vec3(2, -1, 0.5f));
   EXPECT_EQ(file.place_at(3.0), Vec3(8, -4, 2));
@@ -58,8 +57,7 @@ TEST(Animations, LinearKeysJoinByStraightLines) {
 
 TEST(Animations, TimesOutsideTheKeysGiveTheNearestKey) {
   for (const char* interpolation : {"STEP", "LINEAR"}) {
-    AnimatedFile file = moving_triangle();
-    file.move(0, "translation", {file.seconds({1, 2}), file.vectors({1, 0, 0, 2, 0, 0})}, interpolation);
+    AnimatedFile file = translated_triangle({1, 2}, {1, 0, 0, 2, 0, 0}, interpolation);
     for (const double before : {-1e9, 0.0, 0.999}) EXPECT_EQ(file.place_at(before), Vec3(1, 0, 0));
     for (const double after : {2.0, 2.001, 1e9}) EXPECT_EQ(file.place_at(after), Vec3(2, 0, 0));
   }
@@ -67,21 +65,16 @@ TEST(Animations, TimesOutsideTheKeysGiveTheNearestKey) {
 
 TEST(Animations, OneKeyHoldsAlways) {
   for (const char* interpolation : {"STEP", "LINEAR"}) {
-    AnimatedFile file = moving_triangle();
-    file.move(0, "translation", {file.seconds({2}), file.vectors({1, 2, 3})}, interpolation);
+    AnimatedFile file = translated_triangle({2}, {1, 2, 3}, interpolation);
     for (const double time : {0.0, 2.0, 5.0}) EXPECT_EQ(file.place_at(time), Vec3(1, 2, 3));
   }
-  AnimatedFile spline = moving_triangle();
-  spline.move(0, "translation", {spline.seconds({2}), spline.vectors({9, 9, 9, 1, 2, 3, 9, 9, 9})},
-              "CUBICSPLINE");
+  AnimatedFile spline = translated_triangle({2}, {9, 9, 9, 1, 2, 3, 9, 9, 9}, "CUBICSPLINE");
   for (const double time : {0.0, 2.0, 5.0}) EXPECT_EQ(spline.place_at(time), Vec3(1, 2, 3));
 }
 
 TEST(Animations, StepsChangeExactlyAtTheirKeys) {
-  AnimatedFile file = moving_triangle();
   // 0.1 has no exact number in single precision.
-  file.move(0, "translation", {file.seconds({0, 0.1f, 0.7f}), file.vectors({1, 0, 0, 2, 0, 0, 3, 0, 0})},
-            "STEP");
+  AnimatedFile file = translated_triangle({0, 0.1f, 0.7f}, {1, 0, 0, 2, 0, 0, 3, 0, 0}, "STEP");
   EXPECT_EQ(file.place_at(0.0999), Vec3(1, 0, 0));
   EXPECT_EQ(file.place_at(0.1), Vec3(2, 0, 0));
   EXPECT_EQ(file.place_at(0.6999), Vec3(2, 0, 0));
@@ -89,12 +82,9 @@ TEST(Animations, StepsChangeExactlyAtTheirKeys) {
 }
 
 TEST(Animations, CubicSplinesAreThePolynomialsOfHermite) {
-  AnimatedFile file = moving_triangle();
   // In-tangent, value and out-tangent of each key.
-  file.move(
-      0, "translation",
-      {file.seconds({1, 3}), file.vectors({7, 7, 7, 1, 0, -2, 0.5f, 3, 0, -1, 0, 4, 5, 1, -2, 7, 7, 7})},
-      "CUBICSPLINE");
+  AnimatedFile file = translated_triangle(
+      {1, 3}, {7, 7, 7, 1, 0, -2, 0.5f, 3, 0, -1, 0, 4, 5, 1, -2, 7, 7, 7}, "CUBICSPLINE");
   for (const double u : {0.0, 0.25, 0.5, 0.9, 1.0}) {
     const double h00 = (1 + 2 * u) * (1 - u) * (1 - u);
     const double h10 = u * (1 - u) * (1 - u);
@@ -118,17 +108,14 @@ TEST(Animations, ACubicIsReproducedByItsSpline) {
     for (const double v : {slope(t), cubic(t), slope(t)})
       values.insert(values.end(), {static_cast<float>(v), 0, 0});
   }
-  AnimatedFile file = moving_triangle();
-  file.move(0, "translation", {file.seconds(keys), file.vectors(values)}, "CUBICSPLINE");
+  AnimatedFile file = translated_triangle(keys, values, "CUBICSPLINE");
   for (double t = 0.0; t <= 3.0; t += 0.17)
     EXPECT_NEAR(static_cast<double>(file.place_at(t).x()), cubic(t), 5e-6);
 }
 
 TEST(Animations, RotationsTurnAtAConstantRate) {
   const Vec3 axis(1, -2, 0.5f);
-  AnimatedFile file = moving_triangle();
-  file.move(0, "rotation",
-            {file.seconds({0, 2}), file.quaternions(joined({about(axis, 0.3f), about(axis, 2.8f)}))});
+  AnimatedFile file = rotated_triangle({0, 2}, joined({about(axis, 0.3f), about(axis, 2.8f)}));
   for (const double time : {0.0, 0.1, 0.5, 1.0, 1.7, 2.0})
     expect_rotation(file, time, axis, 0.3f + 1.25f * static_cast<float>(time));
 }
@@ -137,33 +124,24 @@ TEST(Animations, RotationsTakeTheShorterWay) {
   const Vec3 axis(0, 1, 0);
   Floats to = about(axis, 0.4f * kTurn);
   for (float& v : to) v = -v;  // the same rotation
-  AnimatedFile file = moving_triangle();
-  file.move(0, "rotation", {file.seconds({0, 1}), file.quaternions(joined({about(axis, 0.0f), to}))});
+  AnimatedFile file = rotated_triangle({0, 1}, joined({about(axis, 0.0f), to}));
   expect_rotation(file, 0.5, axis, 0.2f * kTurn);
-  AnimatedFile far = moving_triangle();
-  far.move(0, "rotation",
-           {far.seconds({0, 1}), far.quaternions(joined({about(axis, 0.0f), about(axis, 0.8f * kTurn)}))});
+  AnimatedFile far = rotated_triangle({0, 1}, joined({about(axis, 0.0f), about(axis, 0.8f * kTurn)}));
   expect_rotation(far, 0.5, axis, -0.1f * kTurn);
 }
 
 TEST(Animations, EqualAndNearlyEqualRotationsStayUnit) {
   const Vec3 axis(0, 0, 1);
-  AnimatedFile file = moving_triangle();
-  file.move(0, "rotation",
-            {file.seconds({0, 1, 2}),
-             file.quaternions(joined({about(axis, 1.0f), about(axis, 1.0f), about(axis, 1.0f + 1e-6f)}))});
+  AnimatedFile file =
+      rotated_triangle({0, 1, 2}, joined({about(axis, 1.0f), about(axis, 1.0f), about(axis, 1.0f + 1e-6f)}));
   for (const double time : {0.5, 1.5}) expect_rotation(file, time, axis, 1.0f);
 }
 
 TEST(Animations, SplinesOfRotationsAreNormalised) {
   const Vec3 axis(0, 0, 1);
   const Floats none{0, 0, 0, 0};
-  AnimatedFile file = moving_triangle();
-  file.move(
-      0, "rotation",
-      {file.seconds({0, 1}),
-       file.quaternions(joined({none, about(axis, 0.0f), none, none, about(axis, kTurn / 4.0f), none}))},
-      "CUBICSPLINE");
+  AnimatedFile file = rotated_triangle(
+      {0, 1}, joined({none, about(axis, 0.0f), none, none, about(axis, kTurn / 4.0f), none}), "CUBICSPLINE");
   // Halfway, flat tangents give the mean of both keys, whose length is not 1.
   expect_rotation(file, 0.5, axis, kTurn / 8.0f);
   const double h = 0.25 * 0.25 * (3.0 - 2.0 * 0.25);
@@ -172,9 +150,7 @@ TEST(Animations, SplinesOfRotationsAreNormalised) {
 }
 
 TEST(Animations, ARotationOfZerosIsNone) {
-  AnimatedFile file = moving_triangle();
-  file.move(0, "rotation",
-            {file.seconds({0, 1}), file.quaternions(joined({{0, 0, 0, 0}, about({1, 0, 0}, 1.0f)}))});
+  AnimatedFile file = rotated_triangle({0, 1}, joined({{0, 0, 0, 0}, about({1, 0, 0}, 1.0f)}));
   expect_rotation(file, 0.0, {1, 0, 0}, 0.0f);
   expect_rotation(file, 0.5, {1, 0, 0}, 0.5f);
 }
@@ -219,17 +195,6 @@ TEST(Animations, NormalisedIntegersAreNumbersUpToOne) {
                                                kShort, "VEC4", 2, {{"normalized", true}})});
   expect_rotation(shorts, 1.0, {1, 0, 0}, kTurn / 4.0f);
   expect_rotation(shorts, 0.5, {1, 0, 0}, kTurn / 8.0f);
-}
-
-/// A triangle with two morph targets, which move its first vertex along x and y.
-AnimatedFile morphing_triangle() {
-  AnimatedFile file;
-  json primitive = file.triangle();
-  primitive["targets"] = {{{"POSITION", file.vectors({1, 0, 0, 0, 0, 0, 0, 0, 0})}},
-                          {{"POSITION", file.vectors({0, 1, 0, 0, 0, 0, 0, 0, 0})}}};
-  file.add("meshes", {{"primitives", {primitive}}, {"weights", {0.25, 0.5}}});
-  file.node({{"mesh", 0}});
-  return file;
 }
 
 Vec3 first_vertex(AnimatedFile& file, double time) {

@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "scene/gltf.h"
-#include "tests/support/animated_file.h"
 #include "tests/support/gltf_parts.h"
+#include "tests/support/moved_triangle.h"
 
 namespace gatelight::scene {
 namespace {
@@ -65,8 +65,7 @@ TEST(Shutter, OnlyWhatMovesHasStates) {
 }
 
 TEST(Shutter, MovesLinearlyBetweenItsStates) {
-  AnimatedFile file = moving_triangle();
-  file.move(0, "translation", {file.seconds({0, 1}), file.vectors({0, 0, 0, 8, 0, 0})});
+  AnimatedFile file = translated_triangle({0, 1}, {0, 0, 0, 8, 0, 0});
   const Scene scene = file.load({.time = 0.5, .shutter = 0.5, .bake_transforms = false});
   const std::array<Vec3, 3> middle = world_triangle(scene, scene.instances[0], 0);
   for (const float time : {0.0f, 0.1f, 0.5f, 0.77f, 1.0f}) {

@@ -6,8 +6,8 @@
 
 #include "scene/gltf.h"
 #include "scene/shutter.h"
-#include "tests/support/animated_file.h"
 #include "tests/support/gltf_parts.h"
+#include "tests/support/moved_triangle.h"
 
 namespace gatelight::scene {
 namespace {
@@ -99,8 +99,7 @@ TEST(ShutterTimes, TurnsBelongToAllThatIsBelow) {
 
 TEST(ShutterTimes, AJumpTakesNoTime) {
   for (const float key : {0.03f, 0.25f, 0.5f, 0.501f, 0.8f, 1.0f}) {
-    AnimatedFile file = moving_triangle();
-    file.move(0, "translation", {file.seconds({0, key}), file.vectors({0, 0, 0, 8, 0, 0})}, "STEP");
+    AnimatedFile file = translated_triangle({0, key}, {0, 0, 0, 8, 0, 0}, "STEP");
     const Scene scene = file.load(kOneSecond);
     for (int k = 0; k < 1000; ++k) {
       const float clock = (static_cast<float>(k) + 0.5f) / 1000.0f;
@@ -144,9 +143,7 @@ TEST(ShutterTimes, SplinesBendOnlyWhereTheirTangentsDo) {
 }
 
 TEST(ShutterTimes, StraightMotionHasNoCorners) {
-  AnimatedFile file = moving_triangle();
-  file.move(0, "translation",
-            {file.seconds({-1, 0.1f, 0.37f, 2}), file.vectors({-1, 0, 0, 0.1f, 0, 0, 0.37f, 0, 0, 2, 0, 0})});
+  AnimatedFile file = translated_triangle({-1, 0.1f, 0.37f, 2}, {-1, 0, 0, 0.1f, 0, 0, 0.37f, 0, 0, 2, 0, 0});
   file.move(0, "rotation", turns(file, 1));
   file.move(0, "scale", {file.seconds({0, 0.37f}), file.vectors({1, 1, 1, 1, 1, 1})}, "STEP");
   const Scene scene = file.load(kOneSecond);
