@@ -119,12 +119,6 @@ TEST(Container, NumbersMayBeWrittenWithAFraction) {
   EXPECT_EQ(count_triangles(file.load()), 1u);
 }
 
-TEST(Extensions, UnknownAndRequiredIsRefusedByName) {
-  GltfBuilder file = triangle_file();
-  file.root["extensionsRequired"] = {"KHR_materials_unlit", "ACME_strange"};
-  file.expect_refused({"extensionsRequired", "ACME_strange"});
-}
-
 TEST(Extensions, UnknownAndUsedIsOneWarning) {
   GltfBuilder file = triangle_file();
   file.root["extensionsUsed"] = {"KHR_materials_unlit", "ACME_strange", "ACME_strange"};

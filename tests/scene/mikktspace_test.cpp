@@ -104,30 +104,6 @@ TEST(MikkTSpace, CornersWeighByTheirAngleSeenAlongTheNormal) {
   }
 }
 
-TEST(MikkTSpace, ACubeHasTheDirectionsOfItsFaces) {
-  Mesh mesh;
-  std::vector<Vec3> expected;
-  for (int axis = 0; axis < 3; ++axis) {
-    for (const float side : {-1.0f, 1.0f}) {
-      const Vec3 n = side * Vec3::Unit(axis);
-      const Vec3 right = Vec3::Unit((axis + 1) % 3);
-      const Vec3 up = n.cross(right);
-      const auto first = static_cast<std::uint32_t>(mesh.positions.size());
-      for (const Vec2& at : {Vec2(0, 0), Vec2(1, 0), Vec2(1, 1), Vec2(0, 1)})
-        add_vertex(mesh, n + (2 * at.x() - 1) * right + (2 * at.y() - 1) * up, at, n);
-      mesh.triangles.push_back({first, first + 1, first + 2});
-      mesh.triangles.push_back({first, first + 2, first + 3});
-      expected.insert(expected.end(), 4, right);
-    }
-  }
-  mesh = generated(mesh);
-  ASSERT_EQ(mesh.tangents.size(), 24u);
-  for (std::size_t i = 0; i < 24; ++i) {
-    EXPECT_TRUE(mesh.tangents[i].head<3>().isApprox(expected[i], 1e-6f));
-    EXPECT_EQ(mesh.tangents[i].w(), 1.0f);
-  }
-}
-
 /// Returns a unit sphere of 2 `n` by `n` quads.
 Mesh sphere(std::uint32_t n) {
   Mesh mesh;

@@ -220,14 +220,6 @@ TEST(Clusters, MemoryFollowsTheAreaInsteadOfTheTessellation) {
   EXPECT_NEAR(nodes[2] / nodes[1], 1, 0.1);
 }
 
-TEST(Clusters, APlaneHasAboutOneClusterPerCell) {
-  const Mesh mesh = testing::grid(200, 10);
-  for (const float spacing : {0.5f, 1.0f, 2.0f}) {
-    const double cells = std::ceil(10 / (0.5 * spacing) + 0.5);
-    EXPECT_NEAR(layout_of(testing::one_instance(mesh), spacing).node_count / 2.0, cells * cells, 2 * cells);
-  }
-}
-
 TEST(Clusters, RoundingErrorsAtRoundCoordinatesAndAnglesDoNotSplitClusters) {
   // A floor at the height of a multiple of the cell, and a roof of 45 degrees, without and with noise.
   for (const float slope : {0.0f, 1.0f}) {

@@ -104,27 +104,20 @@ TEST(GateLayout, APartOfTheAdaptiveResolutionIsRoundedAndAtLeastOne) {
 }
 
 TEST(GateLayout, EqualForAnyNumberOfThreads) {
+  const auto expect_equal = [](const SurfaceLayout& surfaces, const GateOptions& options) {
+    const GateLayout once = build_gate_layout(surfaces, options);
+    for (const std::size_t threads : {1, 2, 7}) {
+      const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
+      testing::expect_same_tables(once, build_gate_layout(surfaces, options));
+    }
+  };
   const Scene scene;
-  for (const GateOptions& options : many_options()) {
-    const GateLayout once = build_gate_layout(scene.surfaces, options);
-    for (const std::size_t threads : {1, 2, 7}) {
-      const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
-      testing::expect_same_tables(once, build_gate_layout(scene.surfaces, options));
-    }
-  }
-}
-
-TEST(GateLayout, AMeshOfManyChunksIsEqualForAnyNumberOfThreads) {
-  const Mesh mesh = testing::grid(160, 16);
+  for (const GateOptions& options : many_options()) expect_equal(scene.surfaces, options);
+  const Mesh many_chunks = testing::grid(160, 16);
+  GateOptions options;
   for (const float spacing : {0.03f, 0.3f}) {
-    GateOptions options;
     options.node_spacing = spacing;
-    std::vector<GateLayout> layouts;
-    for (const std::size_t threads : {1, 2, 7}) {
-      const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
-      layouts.push_back(build_gate_layout(testing::one_instance(mesh), options));
-      testing::expect_same_tables(layouts[0], layouts.back());
-    }
+    expect_equal(testing::one_instance(many_chunks), options);
   }
 }
 

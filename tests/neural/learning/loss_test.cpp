@@ -96,23 +96,5 @@ TEST(Loss, GradientOfAStepIsTheGradientOfTheMean) {
   }
 }
 
-TEST(Loss, DuplicatedRecordsChangeNoGradient) {
-  // The gradient is a mean over records, so a batch repeated twice has the same gradient.
-  const auto model = testing::find_model_case("nrc").model;
-  testing::OwnedBatch batch = testing::make_batch(*model, 20, 1);
-  const auto once = make_reference_backend(model, {}), twice = make_reference_backend(model, {});
-  once->train(batch.training());
-  const auto repeat = [](auto& values) {
-    const auto copy = values;
-    values.insert(values.end(), copy.begin(), copy.end());
-  };
-  repeat(batch.surfaces), repeat(batch.triangles), repeat(batch.barycentrics), repeat(batch.directions);
-  repeat(batch.targets), repeat(batch.fates);
-  twice->train(batch.training());
-  const ModelState a = once->export_state(), b = twice->export_state();
-  for (std::size_t p = 0; p < a.parameters.size(); ++p)
-    EXPECT_NEAR(a.first_moments[p], b.first_moments[p], 1e-6 * std::abs(a.first_moments[p]) + 1e-12);
-}
-
 }  // namespace
 }  // namespace gatelight::neural::reference

@@ -1,8 +1,6 @@
 // A cache file restores each state to the bit.
 
 #include <gtest/gtest.h>
-#include <tbb/global_control.h>
-#include <tbb/task_arena.h>
 
 #include <array>
 #include <cstdint>
@@ -56,27 +54,6 @@ TEST(CacheFile, TrainingContinuesBitForBit) {
       loaded.load(folder / "a", kFingerprint);
       for (int step = 3; step < 6; ++step) loaded.train(batches[step % 2].training());
       EXPECT_TRUE(same_bits(state_of(loaded), state_of(straight)));
-    }
-  }
-}
-
-TEST(CacheFile, HundredStepsMakeTheSameFileForAnyNumberOfThreads) {
-  const TemporaryFolder folder;
-  for (const char* name : {"nrc", "nao", "hash_F4"}) {
-    const ModelCase c = find_model_case(name);
-    const OwnedBatch batches[] = {make_batch(*c.model, 4001, 1), make_batch(*c.model, 3000, 2)};
-    std::string first;
-    for (const int threads : {1, 2, 7}) {
-      const tbb::global_control control(tbb::global_control::max_allowed_parallelism,
-                                        static_cast<std::size_t>(threads));
-      tbb::task_arena(threads).execute([&] {
-        Trainer trainer(c.model, {}, cpu::make_cpu_backend(c.model, {}));
-        for (int step = 0; step < 100; ++step) trainer.train(batches[step % 2].training());
-        trainer.save(folder / "a", kFingerprint);
-      });
-      const std::string bytes = read_file(folder / "a");
-      if (threads == 1) first = bytes;
-      EXPECT_TRUE(bytes == first) << name << " with " << threads << " threads";
     }
   }
 }

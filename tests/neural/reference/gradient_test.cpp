@@ -247,16 +247,5 @@ TEST(Gradient, OfNodesThatNoPointReadsIsZero) {
   }
 }
 
-TEST(Gradient, OfARepeatedRecordIsTwiceItsGradient) {
-  Problem problem(testing::find_model_case("nrc"), 4);
-  std::vector<double> once(problem.parameters.size(), 0.0), twice = once;
-  add_record_gradient(problem.model, Loss::relative_l2, problem.parameters, problem.points[0],
-                      problem.targets[0], 1.0, once);
-  for (int i = 0; i < 2; ++i)
-    add_record_gradient(problem.model, Loss::relative_l2, problem.parameters, problem.points[0],
-                        problem.targets[0], 1.0, twice);
-  for (std::size_t p = 0; p < once.size(); ++p) EXPECT_EQ(twice[p], 2.0 * once[p]);
-}
-
 }  // namespace
 }  // namespace gatelight::neural::reference
