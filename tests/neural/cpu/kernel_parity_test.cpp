@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/neural/agreement_loops.h"
 #include "tests/neural/cpu/kernel_agreement.h"
 
 namespace gatelight::neural {
@@ -94,25 +95,9 @@ TEST_F(KernelParity, AnswersAndStepsOf49152Records) {
 }
 
 TEST_F(KernelParity, AStepUnderEveryOption) {
-  std::uint64_t seed = 300;
-  for (const char* name : {"nrc", "gate_L5_per_triangle_stack_5_a_1", "gate_L2_stack_4_2_1", "hash_F3"}) {
-    const ModelCase c = find_model_case(name);
-    for (OptionsCase& o : all_training_options(*c.model))
-      for (const Loss loss : {Loss::l2, Loss::relative_l2})
-        for (const bool trained : {false, true}) {
-          // At the first step the mean target becomes the output's bias: let it be far from each target.
-          const bool start_at_mean = o.options.start_at_mean && !trained;
-          make_smooth(o.options.adam);
-          if (o.options.loss == Loss::relative_l2) o.options.loss = loss;
-          const ModelState state = random_state(*c.model, o.options, ++seed, trained);
-          OwnedBatch batch = make_smooth_batch(*c.model, state, 60 + seed % 41, seed,
-                                               {.nonfinite = 0.1f, .unstored = 0.1f, .beyond = 0.05f});
-          o.options.max_target = 8.0f;
-          for (std::size_t i = 0; start_at_mean && i < batch.targets.size(); i += 2) batch.targets[i] -= 3.0f;
-          agreement().expect_same_step(fmt::format("{} {}", c.name, o.name), c.model, o.options, batch,
-                                       state);
-        }
-  }
+  expect_same_step_under_options(
+      agreement(), {"nrc", "gate_L5_per_triangle_stack_5_a_1", "gate_L2_stack_4_2_1", "hash_F3"},
+      {Loss::l2, Loss::relative_l2});
 }
 
 // The points are exact in float and lie on nodes and on the lines between them, so the weights are exact.
@@ -201,21 +186,9 @@ TEST_F(KernelParity, AnswersInBf16) {
 }
 
 TEST_F(KernelParity, RangesClampTheRawAnswers) {
-  const ModelCase c = find_model_case("nrc");
-  const TrainingOptions options;
-  ModelState state = random_state(*c.model, options, 4, true);
-  for (std::uint32_t o = 0; o < 3; ++o) state.averages[c.model->parameters.layers.back().biases + o] = 0.4f;
-  const OwnedBatch batch = make_batch(*c.model, 211, 4, {.nonfinite = 0.1f, .unstored = 0.1f});
   for (const Isa isa : simd::available_isas())
-    for (const QueryPrecision precision : {QueryPrecision::fp32, QueryPrecision::bf16}) {
-      const auto fast = cpu::make_cpu_backend(c.model, options, isa);
-      fast->import_state(state);
-      const auto ask = [&](OutputRange range) {
-        return answers(*fast, *c.model, batch, {precision, range, true});
-      };
-      expect_ranges(*c.model, batch, ask(OutputRange::raw), ask(OutputRange::non_negative),
-                    ask(OutputRange::unit));
-    }
+    for (const QueryPrecision precision : {QueryPrecision::fp32, QueryPrecision::bf16})
+      expect_clamped_answers(*cpu::make_cpu_backend(find_model_case("nrc").model, {}, isa), precision);
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 // Answers of the Vulkan backend agree with the reference.
 
+#include "tests/neural/agreement_loops.h"
 #include "tests/neural/vulkan/agreement.h"
 
 namespace gatelight::neural {
@@ -92,19 +93,8 @@ TEST_F(VulkanAnswers, AgreeInBf16) {
 }
 
 TEST_F(VulkanAnswers, AreClampedToTheRange) {
-  const ModelCase c = find_model_case("nrc");
-  const TrainingOptions options;
-  ModelState state = random_state(*c.model, options, 4, true);
-  for (std::uint32_t o = 0; o < 3; ++o) state.averages[c.model->parameters.layers.back().biases + o] = 0.4f;
-  const OwnedBatch batch = make_batch(*c.model, 211, 4, {.nonfinite = 0.1f, .unstored = 0.1f});
-  const auto device = vulkan::make_vulkan_backend(test_machine(), c.model, options);
-  device->import_state(state);
-  const auto ask = [&](OutputRange range) {
-    return answers(*device, *c.model, batch, {QueryPrecision::fp32, range, true});
-  };
-  const std::vector<float> raw = ask(OutputRange::raw), positive = ask(OutputRange::non_negative),
-                           unit = ask(OutputRange::unit);
-  expect_ranges(*c.model, batch, raw, positive, unit);
+  expect_clamped_answers(*vulkan::make_vulkan_backend(test_machine(), find_model_case("nrc").model, {}),
+                         QueryPrecision::fp32);
 }
 
 // Steps, averages and rounding change the parameters that are packed for queries.
