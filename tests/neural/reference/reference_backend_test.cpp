@@ -10,6 +10,7 @@
 #include "base/errors.h"
 #include "neural/reference/encode.h"
 #include "neural/reference/record_gradient.h"
+#include "tests/neural/agreement_loops.h"
 #include "tests/support/model_batches.h"
 #include "tests/support/model_cases.h"
 
@@ -219,33 +220,8 @@ TEST(ReferenceBackend, CountsEachTriangleOnceAStep) {
 }
 
 TEST(ReferenceBackend, AnswersAreClampedToTheirRange) {
-  const auto model = find_model_case("nrc").model;
-  const auto backend = make_reference_backend(model, {});
-  ModelState state = backend->export_state();
-  const LayerLayout& last = model->parameters.layers.back();
-  state.averages[last.biases] = -1000.0f;
-  state.averages[last.biases + 1] = 1000.0f;
-  state.averages[last.biases + 2] = std::numeric_limits<float>::quiet_NaN();
-  backend->import_state(state);
-  const OwnedBatch points = make_batch(*model, 5, 1);
-  const auto with = [&](OutputRange range) {
-    QueryOptions options;
-    options.range = range;
-    return answers(*backend, *model, points, options);
-  };
-  const std::vector<float> raw = with(OutputRange::raw), positive = with(OutputRange::non_negative),
-                           unit = with(OutputRange::unit);
-  for (std::size_t r = 0; r < points.size(); ++r) {
-    EXPECT_LT(raw[3 * r], -900.0f);
-    EXPECT_GT(raw[3 * r + 1], 900.0f);
-    EXPECT_TRUE(std::isnan(raw[3 * r + 2]));
-    EXPECT_EQ(positive[3 * r], 0.0f);
-    EXPECT_EQ(positive[3 * r + 1], raw[3 * r + 1]);
-    EXPECT_EQ(positive[3 * r + 2], 0.0f);
-    EXPECT_EQ(unit[3 * r], 0.0f);
-    EXPECT_EQ(unit[3 * r + 1], 1.0f);
-    EXPECT_EQ(unit[3 * r + 2], 0.0f);
-  }
+  testing::expect_clamped_answers(*make_reference_backend(find_model_case("nrc").model, {}),
+                                  QueryPrecision::fp32);
 }
 
 TEST(ReferenceBackend, QueriesOfBadPointsAnswerFiniteNumbers) {
