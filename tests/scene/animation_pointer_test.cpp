@@ -6,6 +6,7 @@
 
 #include "tests/support/gltf_parts.h"
 #include "tests/support/moved_triangle.h"
+#include "tests/support/small_pngs.h"
 
 namespace gatelight::scene {
 namespace {
@@ -85,9 +86,7 @@ AnimatedFile textured_triangle() {
        {"normalTexture", {{"index", 0}}},
        {"extensions",
         {{"KHR_materials_clearcoat", {{"clearcoatFactor", 1.0}, {"clearcoatTexture", moved}}}}}});
-  file.add("images", {{"uri",
-                       "data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAAAAAA6fptVAAAACklEQVR4nG"
-                       "NoAAAAggCBd81ytgAAAABJRU5ErkJggg=="}});
+  file.add("images", {{"uri", kPixelUri}});
   file.add("textures", {{"source", 0}});
   return file;
 }

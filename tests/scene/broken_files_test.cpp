@@ -8,6 +8,7 @@
 
 #include "tests/support/gltf_parts.h"
 #include "tests/support/scene_fault.h"
+#include "tests/support/small_pngs.h"
 
 namespace gatelight::scene {
 namespace {
@@ -56,12 +57,7 @@ TEST(BrokenFiles, FeatureSamplesLoad) {
 /// A small file that passes through most of the loader.
 std::vector<std::uint8_t> rich_file() {
   GltfBuilder file;
-  const std::vector<std::uint8_t> png = {
-      0x89, 'P',  'N',  'G',  '\r', '\n', 0x1a, '\n', 0,    0,    0,    13,   'I',  'H',  'D',  'R',  0,
-      0,    0,    2,    0,    0,    0,    1,    8,    0,    0,    0,    0,    0xd1, 0x49, 0x20, 0x56, 0,
-      0,    0,    11,   'I',  'D',  'A',  'T',  0x78, 0xda, 0x63, 0x60, 0xff, 0x05, 0,    0x01, 0x0b, 0x01,
-      0x02, 0x54, 0xf9, 0x8c, 0xc4, 0,    0,    0,    0,    'I',  'E',  'N',  'D',  0xae, 0x42, 0x60, 0x82};
-  file.add("images", {{"bufferView", file.view(png)}, {"mimeType", "image/png"}});
+  file.add("images", {{"bufferView", file.view(kGrey)}, {"mimeType", "image/png"}});
   file.add("textures", {{"source", 0}});
   file.add("materials", {{"normalTexture",
                           {{"index", 0}, {"extensions", {{"KHR_texture_transform", {{"scale", {2, 2}}}}}}}},

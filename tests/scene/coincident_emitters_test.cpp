@@ -77,23 +77,19 @@ TEST(DoubledLamps, AreSeenFromTheirFronts) {
     d.add(d.lamp(), {kFront, kTurned});
     EXPECT_EQ(d.seen(), "L/L") << "both sides of one mesh shine";
   }
+  const auto seen_with = [](const Triangle& wall, bool lamp_first) {
+    Doubled d;
+    const int w = d.wall(), l = d.lamp();
+    if (lamp_first) d.add(l, {kFront});
+    d.add(w, {wall});
+    if (!lamp_first) d.add(l, {kFront});
+    return d.seen();
+  };
   for (const bool lamp_first : {false, true}) {
-    for (const Triangle& wall : {kTurned, Triangle{1, 0, 2}, Triangle{0, 2, 1}}) {
-      Doubled d;
-      const int w = d.wall(), l = d.lamp();
-      if (lamp_first) d.add(l, {kFront});
-      d.add(w, {wall});
-      if (!lamp_first) d.add(l, {kFront});
-      EXPECT_EQ(d.seen(), "L/W") << "the wall has its back to the lamp";
-    }
-    for (const Triangle& wall : {kFront, Triangle{1, 2, 0}}) {
-      Doubled d;
-      const int w = d.wall(), l = d.lamp();
-      if (lamp_first) d.add(l, {kFront});
-      d.add(w, {wall});
-      if (!lamp_first) d.add(l, {kFront});
-      EXPECT_EQ(d.seen(), "L/l") << "both look the same way: the lamp stays";
-    }
+    for (const Triangle& wall : {kTurned, Triangle{1, 0, 2}, Triangle{0, 2, 1}})
+      EXPECT_EQ(seen_with(wall, lamp_first), "L/W") << "the wall has its back to the lamp";
+    for (const Triangle& wall : {kFront, Triangle{1, 2, 0}})
+      EXPECT_EQ(seen_with(wall, lamp_first), "L/l") << "both look the same way: the lamp stays";
   }
 }
 

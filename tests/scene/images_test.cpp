@@ -3,6 +3,7 @@
 
 #include "tests/support/gltf_parts.h"
 #include "tests/support/png_checksums.h"
+#include "tests/support/small_pngs.h"
 
 namespace gatelight::scene {
 namespace {
@@ -11,17 +12,6 @@ using ::testing::ElementsAre;
 using tests::expect_message;
 using tests::expect_messages;
 
-/// 2x2: red, half-transparent green (0, 200, 0, 128); transparent (10, 20, 30, 0), (1, 2, 3, 64).
-const char* const kRgba =
-    "data:image/"
-    "png;base64,iVBORw0KGgoAAAANSUhEUgAAAAIAAAACCAYAAABytg0kAAAAGklEQVR42mP4z8Dwn+EEQwMDl4gcAyMTswMALzMDyc"
-    "BfC3YAAAAASUVORK5CYII=";
-/// 2x1 grey: 7, 250.
-const std::vector<std::uint8_t> kGrey = {
-    0x89, 'P',  'N',  'G',  '\r', '\n', 0x1a, '\n', 0,    0,    0,    13,   'I',  'H',  'D',  'R',  0,
-    0,    0,    2,    0,    0,    0,    1,    8,    0,    0,    0,    0,    0xd1, 0x49, 0x20, 0x56, 0,
-    0,    0,    11,   'I',  'D',  'A',  'T',  0x78, 0xda, 0x63, 0x60, 0xff, 0x05, 0,    0x01, 0x0b, 0x01,
-    0x02, 0x54, 0xf9, 0x8c, 0xc4, 0,    0,    0,    0,    'I',  'E',  'N',  'D',  0xae, 0x42, 0x60, 0x82};
 /// A header that promises 30000 x 30000 pixels, and 12 bytes of data.
 const char* const kBomb =
     "data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAdTAAAHUwCAIAAADpRW/"
@@ -38,7 +28,7 @@ const std::vector<std::uint8_t> kJpeg = {
     0, 8, 1, 1, 0, 0, 63, 0, 0x3f, 0xff, 0xd9};
 constexpr std::size_t kJpegScan = 3;  ///< bytes at its end: the block, and the end of the image
 
-/// The pixels of kRgba as lossless WebP; 4x4 pixels of about (60, 120, 180), lossy; and an animation.
+/// The pixels of kRgbaUri as lossless WebP; 4x4 pixels of about (60, 120, 180), lossy; and an animation.
 const char* const kWebp =
     "data:image/webp;base64,UklGRj4AAABXRUJQVlA4TDEAAAAvAUAAEB8gICFkgv8zjBWSIGDz/1erBAIUxQz/"
     "j1kiECDanElzJpil5LqLG"
@@ -70,7 +60,7 @@ GltfBuilder with_bytes(const std::vector<std::uint8_t>& bytes) {
 }
 
 TEST(Images, KeepEightBitsAndUnassociatedAlpha) {
-  const Scene scene = with_image({{"uri", kRgba}}).load();
+  const Scene scene = with_image({{"uri", kRgbaUri}}).load();
   ASSERT_EQ(scene.images.size(), 1u);
   const Image& image = scene.images[0];
   EXPECT_EQ(image.width, 2);
@@ -182,7 +172,7 @@ TEST(Images, AMissingFileIsAnErrorOrWhite) {
 }
 
 TEST(Images, BrokenPicturesAreAnErrorOrWhite) {
-  const std::string whole = kRgba;
+  const std::string whole = kRgbaUri;
   std::vector<json> broken = {{{"uri", "data:image/png;base64,QUJDREVGR0hJSktM"}},
                               {{"uri", whole.substr(0, 60)}},
                               {{"uri", "data:image/jpeg;base64,/9j/4AAQ"}},
@@ -196,7 +186,7 @@ TEST(Images, BrokenPicturesAreAnErrorOrWhite) {
 }
 
 TEST(Images, WebpIsReadLikePng) {
-  const Image png = with_image({{"uri", kRgba}}).load().images.at(0);
+  const Image png = with_image({{"uri", kRgbaUri}}).load().images.at(0);
   const Image webp = with_image({{"uri", kWebp}}).load().images.at(0);
   EXPECT_EQ(webp.channels, 4);
   EXPECT_EQ(webp.pixels, png.pixels) << "colours under an alpha of 0, too";
@@ -216,7 +206,7 @@ TEST(Images, DamagedWebpAndAnimationsAreRefused) {
 
 /// Returns a texture with a PNG and another picture from an extension.
 GltfBuilder with_two(const char* extension, const char* uri) {
-  GltfBuilder file = with_image({{"uri", kRgba}});
+  GltfBuilder file = with_image({{"uri", kRgbaUri}});
   file.root["textures"][0]["extensions"][extension]["source"] = file.add("images", {{"uri", uri}});
   file.root["extensionsUsed"] = {extension};
   return file;
@@ -334,7 +324,7 @@ TEST(Images, WithEqualBytesAreDecodedOnce) {
 }
 
 TEST(Images, ATextureWithoutASourceIsIgnoredWithAWarning) {
-  GltfBuilder file = with_image({{"uri", kRgba}});
+  GltfBuilder file = with_image({{"uri", kRgbaUri}});
   file.root["textures"][0].erase("source");
   const Scene scene = file.load();
   EXPECT_FALSE(scene.materials.at(0).base_color_texture);
@@ -342,7 +332,7 @@ TEST(Images, ATextureWithoutASourceIsIgnoredWithAWarning) {
 }
 
 TEST(Images, AMeshWithoutTextureCoordinatesGivesAWarning) {
-  GltfBuilder file = with_image({{"uri", kRgba}});
+  GltfBuilder file = with_image({{"uri", kRgbaUri}});
   EXPECT_THAT(file.load().warnings, ::testing::IsEmpty());
   file.root["meshes"][0]["primitives"][0]["attributes"].erase("TEXCOORD_0");
   expect_messages(file.load().warnings, {{}});

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "tests/support/gltf_parts.h"
+#include "tests/support/small_pngs.h"
 
 namespace gatelight::scene {
 namespace {
@@ -22,9 +23,7 @@ using tests::expect_messages;
 /// there that the scene does not show.
 GltfBuilder whole_file() {
   GltfBuilder file;
-  file.add("images", {{"uri",
-                       "data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAAAAAA6fptVAAAACklEQVR4nG"
-                       "NoAAAAggCBd81ytgAAAABJRU5ErkJggg=="}});
+  file.add("images", {{"uri", kPixelUri}});
   file.add("samplers", json::object());
   file.add("textures", {{"source", 0}, {"sampler", 0}});
   json primitive = file.triangle();

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "tests/support/gltf_parts.h"
+#include "tests/support/small_pngs.h"
 
 namespace gatelight::scene {
 namespace {
@@ -251,12 +252,7 @@ GltfBuilder with_image_light() {
   GltfBuilder file;
   file.node({{"mesh", file.mesh(file.triangle())}});
   json faces = json::array();
-  for (int f = 0; f < 6; ++f)
-    faces.push_back(file.add(
-        "images",
-        {{"uri",
-          "data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAIAAAACCAYAAABytg0kAAAAGklEQVR42mP4z8Dwn+EEQwMDl4"
-          "gcAyMTswMALzMDycBfC3YAAAAASUVORK5CYII="}}));
+  for (int f = 0; f < 6; ++f) faces.push_back(file.add("images", {{"uri", kRgbaUri}}));
   file.root["extensionsUsed"] = {"EXT_lights_image_based"};
   file.root["extensions"]["EXT_lights_image_based"]["lights"] = {
       {{"name", "studio"}, {"intensity", 2}, {"rotation", {0, 2, 0, 2}}, {"specularImages", {faces}}}};
