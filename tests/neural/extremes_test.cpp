@@ -33,9 +33,7 @@ TEST(Extremes, WeightsStayFiniteForEveryTarget) {
     for (const Loss loss : {Loss::l2, Loss::relative_l2})
       for (const float limit : {1e9f, kGreatestFloat}) {
         SCOPED_TRACE(fmt::format("limit {} loss {}", limit, static_cast<int>(loss)));
-        TrainingOptions options;
-        options.loss = loss;
-        options.max_target = limit;
+        const TrainingOptions options{.loss = loss, .max_target = limit};
         for_every_backend(c, options, [&](Backend& backend) {
           expect_finite_for_targets(backend, *c.model,
                                     {0.0f, 1e-45f, 1e-30f, 1e-6f, 1e6f, 1e9f, 1e30f, kGreatestFloat});
@@ -147,10 +145,7 @@ TEST(Extremes, StepsBeyondTheTableOfAdamFactorsAgree) {
 TEST(Extremes, GradientsBeyondAllBoundsChangeNothing) {
   const ModelCase c = find_model_case("nrc");
   for (const FeatureUpdate update : {FeatureUpdate::sparse, FeatureUpdate::dense}) {
-    TrainingOptions options;
-    options.loss = Loss::l2;
-    options.max_target = kGreatestFloat;
-    options.update = update;
+    TrainingOptions options{.loss = Loss::l2, .update = update, .max_target = kGreatestFloat};
     ModelState state = random_state(*c.model, options, 11, true);
     OwnedBatch batch = make_batch(*c.model, 50, 11);
     for (float& target : batch.targets) target = 1e36f;
@@ -186,9 +181,7 @@ TEST(Extremes, ImportedFeaturesBeyondFp16AreClamped) {
 TEST(Extremes, VanishingGradientsLeaveWeightsFinite) {
   const ModelCase c = find_model_case("nrc");
   for (const float epsilon : {1e-15f, 1e-30f}) {
-    TrainingOptions options;
-    options.loss = Loss::l2;
-    options.start_at_mean = false;
+    TrainingOptions options{.loss = Loss::l2, .start_at_mean = false};
     options.adam.l2_network = 0;
     options.adam.epsilon = epsilon;
     for_every_backend(c, options, [&](Backend& backend) {
@@ -218,8 +211,7 @@ TEST(Extremes, AnUnstoredRecordWithHugeInputsBlocksNoUpdate) {
   const ModelCase c{"huge_inputs", make_model(config, surfaces->layout())};
   // Whether its hidden values overflow depends on the weights.
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
-    TrainingOptions options;
-    options.seed = seed;
+    TrainingOptions options{.seed = seed};
     for_every_backend(c, options, [&](Backend& backend) {
       OwnedBatch batch = make_batch(*c.model, 100, 1);
       batch.surfaces[40] = 0xffffffffu;

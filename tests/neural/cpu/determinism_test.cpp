@@ -98,8 +98,7 @@ TEST(Determinism, ManyStepsAreTheSameForAnyNumberOfThreads) {
   for (const char* name : {"nrc", "hash_F4"}) {
     const ModelCase c = find_model_case(name);
     for (const FeatureUpdate update : {FeatureUpdate::sparse, FeatureUpdate::dense}) {
-      TrainingOptions options;
-      options.update = update;
+      const TrainingOptions options{.update = update};
       const auto batches = batches_of(*c.model, kSizes, 0.2f);
       expect_same_for_any_threads(fmt::format("{}{}", name, update == FeatureUpdate::dense ? " dense" : ""),
                                   c.model, options, batches, kManySteps);

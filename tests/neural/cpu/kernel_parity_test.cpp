@@ -130,8 +130,7 @@ TEST_F(KernelParity, LossesOfLaterStepsAgree) {
   for (const char* name : {"nrc", "nao", "hash_F4"})
     for (const Loss loss : {Loss::l2, Loss::relative_l2}) {
       const ModelCase c = find_model_case(name);
-      TrainingOptions options;
-      options.loss = loss;
+      const TrainingOptions options{.loss = loss};
       const auto reference = make_reference_backend(c.model, options);
       std::vector<std::unique_ptr<Backend>> fast;
       for (const Isa isa : simd::available_isas())

@@ -37,8 +37,7 @@ TEST_F(KernelRecords, TargetsBeyondTheGreatestAreClampedAndCounted) {
 
 TEST_F(KernelRecords, TheLastTargetIsClampedToo) {
   const ModelCase c = find_model_case("nrc");
-  TrainingOptions options;
-  options.max_target = 6.0f;
+  const TrainingOptions options{.max_target = 6.0f};
   for (const std::size_t size : {1u, 2u, 5u, 15u, 48u, 49u}) {
     OwnedBatch batch = make_batch(*c.model, size, 5);
     batch.targets.back() = 7.0f;

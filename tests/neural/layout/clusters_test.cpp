@@ -28,9 +28,7 @@ std::uint32_t corner(const GateLayout& layout, std::uint32_t t, std::uint32_t c,
 using Stack = std::vector<std::uint32_t>;
 
 GateLayout layout_of(const SurfaceLayout& scene, float spacing, const Stack& stack = {kAdaptive, 1}) {
-  GateOptions options;
-  options.node_spacing = spacing;
-  options.stack = stack;
+  GateOptions options{.stack = stack, .node_spacing = spacing};
   return build_gate_layout(scene, options);
 }
 
@@ -291,8 +289,7 @@ TEST(Clusters, NothingIsClusteredWhereEveryVertexWouldBeACluster) {
 TEST(Clusters, AreMadeOnlyWhereTheOptionsAllowThem) {
   const Mesh mesh = testing::sphere(64, 1);
   const auto clustered = [&](const std::function<void(GateOptions&)>& change) {
-    GateOptions options;
-    options.node_spacing = 0.5f;
+    GateOptions options{.node_spacing = 0.5f};
     change(options);
     return build_gate_layout(testing::one_instance(mesh), options).report.clustered_surfaces;
   };

@@ -52,24 +52,17 @@ std::vector<GateOptions> many_options() {
       for (const std::uint64_t budget : {0, 100000})
         for (const ResolutionRule rule : {ResolutionRule::uniform, ResolutionRule::paper}) {
           if (budget != 0 && (!cluster || rule == ResolutionRule::paper)) continue;
-          GateOptions options;
-          options.rule = rule;
-          options.node_spacing = spacing;
-          options.cluster = cluster;
-          options.memory_budget = budget;
+          const GateOptions options{
+              .rule = rule, .node_spacing = spacing, .cluster = cluster, .memory_budget = budget};
           all.push_back(options);
         }
   all.push_back(testing::fixed_options(3));
   all.push_back(testing::fixed_options(5, NodeStorage::per_triangle));
   all.back().stack = {kAdaptive, 1, 2, 8};
-  GateOptions parts;
-  parts.node_spacing = 0.02f;
-  parts.stack = {kAdaptive, adaptive_part(4), 1};
+  const GateOptions parts{.stack = {kAdaptive, adaptive_part(4), 1}, .node_spacing = 0.02f};
   all.push_back(parts);
   // Levels with separate cells; with little memory all instances share clusters.
-  GateOptions cells;
-  cells.features = 1;
-  cells.node_spacing = 0.1f;
+  GateOptions cells{.features = 1, .node_spacing = 0.1f};
   for (const Stack& stack :
        {Stack{kAdaptive, adaptive_part(4), adaptive_part(16)}, Stack{kAdaptive, 1, adaptive_part(3)}})
     for (const std::uint64_t budget : {0, 20000, 700}) {
@@ -170,9 +163,7 @@ TEST(GateLayout, ASpacingScaleIsTheSpacingOfItsInstance) {
 
 TEST(GateLayout, SpacingScalesOfOtherInstancesChangeNothing) {
   Scene scene;
-  GateOptions options;
-  options.node_spacing = 0.2f;
-  options.stack = {kAdaptive, adaptive_part(4), 1};
+  GateOptions options{.stack = {kAdaptive, adaptive_part(4), 1}, .node_spacing = 0.2f};
   const GateLayout before = build_gate_layout(scene.surfaces, options);
   scene.surfaces.instances[3].spacing_scale = 0.25f;
   const GateLayout after = build_gate_layout(scene.surfaces, options);
@@ -285,8 +276,7 @@ TEST(GateLayout, InstancesOfAMeshShareItsTopologyAndNotItsNodes) {
 TEST(GateLayout, OnlyMeshesThatNeedEdgesHaveThem) {
   const Mesh coarse = testing::grid(2, 4);
   const Mesh fine = testing::grid(30, 1);
-  GateOptions options;
-  options.cluster = false;
+  GateOptions options{.cluster = false};
   const GateLayout layout =
       build_gate_layout({{testing::view(coarse), testing::view(fine)}, {{0}, {1}}}, options);
   EXPECT_EQ(layout.surfaces[0].topology_stride, 6u);

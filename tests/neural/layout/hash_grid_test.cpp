@@ -16,8 +16,7 @@ std::uint64_t bytes(const HashGridLayout& layout, const HashGridOptions& options
 
 TEST(HashGrid, LevelsGrowFromTheBaseAndAreDenseWhereTheyFit) {
   // The paper's 8 x 4 at base 2, growth 2: 2, 4, ..., 256 cells a side.
-  HashGridOptions options;
-  options.log2_table_size = 15;
+  HashGridOptions options{.log2_table_size = 15};
   const HashGridLayout layout = build_hash_grid_layout(options);
   ASSERT_EQ(layout.levels.size(), 8u);
   EXPECT_EQ(layout.features, 4u);
@@ -36,10 +35,8 @@ TEST(HashGrid, LevelsGrowFromTheBaseAndAreDenseWhereTheyFit) {
 }
 
 TEST(HashGrid, EntriesOfADenseLevelAreRoundedUpToEight) {
-  HashGridOptions options;
-  options.levels = 3;
-  options.base_resolution = 3;
-  options.growth = 1.5f;  // scales 2, 3.5, 5.75
+  // Scales 2, 3.5, 5.75.
+  HashGridOptions options{.levels = 3, .base_resolution = 3, .growth = 1.5f};
   const HashGridLayout layout = build_hash_grid_layout(options);
   EXPECT_EQ(layout.levels[0].entries, 32u);  // 27
   EXPECT_EQ(layout.levels[1].resolution, 5u);
@@ -52,10 +49,8 @@ TEST(HashGrid, MemoryTargetIsMetWithinOneStepOfTheTableSize) {
   for (const std::uint32_t features : {1u, 2u, 4u, 7u, 16u})
     for (const std::uint32_t bytes_per_feature : {2u, 4u})
       for (const std::uint64_t target : {1000000ull, 910000ull, 83090000ull, 132240000ull, 4000000000ull}) {
-        HashGridOptions options;
-        options.features = features;
-        options.bytes_per_feature = bytes_per_feature;
-        options.memory_target = target;
+        const HashGridOptions options{
+            .features = features, .memory_target = target, .bytes_per_feature = bytes_per_feature};
         const HashGridLayout layout = build_hash_grid_layout(options);
         std::uint64_t hashed = 0, table = 0;
         for (const HashGridLevel& level : layout.levels)
@@ -70,9 +65,7 @@ TEST(HashGrid, MemoryTargetIsMetWithinOneStepOfTheTableSize) {
 }
 
 TEST(HashGrid, ATargetForAllLevelsMakesAllDense) {
-  HashGridOptions options;
-  options.levels = 5;
-  options.memory_target = std::numeric_limits<std::uint64_t>::max();
+  HashGridOptions options{.levels = 5, .memory_target = std::numeric_limits<std::uint64_t>::max()};
   for (const HashGridLevel& level : build_hash_grid_layout(options).levels) EXPECT_EQ(level.dense, 1u);
   // All levels have more entries than 32 bits can number: the layout has as many as they can.
   options.levels = 16;
@@ -81,10 +74,8 @@ TEST(HashGrid, ATargetForAllLevelsMakesAllDense) {
 }
 
 TEST(HashGrid, FineResolutionsDoNotOverflow) {
-  HashGridOptions options;
-  options.levels = 16;
-  options.base_resolution = 16;
-  options.growth = 2.0f;  // 2^19 a side: 2^57 lattice points
+  // 2^19 a side: 2^57 lattice points.
+  HashGridOptions options{.levels = 16, .base_resolution = 16, .growth = 2.0f};
   const HashGridLayout layout = build_hash_grid_layout(options);
   EXPECT_EQ(layout.levels[15].resolution, 1u << 19);
   EXPECT_EQ(layout.levels[15].entries, 1u << 19);
@@ -95,9 +86,8 @@ TEST(HashGrid, FineResolutionsDoNotOverflow) {
 }
 
 TEST(HashGrid, LongestSideOfTheBoundsFillsTheUnitInterval) {
-  HashGridOptions options;
-  options.bounds_min = {-1, 2, 3};
-  options.bounds_max = {1, 6, 3};  // flat in z
+  // Flat in z.
+  HashGridOptions options{.bounds_min = {-1, 2, 3}, .bounds_max = {1, 6, 3}};
   const HashGridLayout layout = build_hash_grid_layout(options);
   EXPECT_EQ(layout.bounds_min, options.bounds_min);
   EXPECT_EQ(layout.inverse_extent, 0.25f);

@@ -64,8 +64,7 @@ TEST(MemoryBudget, IsMetAndUsed) {
 
 TEST(MemoryBudget, TheFinestLayoutIsTakenWhereItFits) {
   const Scene scene;
-  GateOptions options;
-  options.memory_budget = 10000 * kMegabyte;
+  GateOptions options{.memory_budget = 10000 * kMegabyte};
   const GateLayout layout = build_gate_layout(scene.surfaces, options);
   EXPECT_EQ(layout.report.resolution_histogram[options.max_resolution], 21u);
 }
@@ -73,8 +72,7 @@ TEST(MemoryBudget, TheFinestLayoutIsTakenWhereItFits) {
 TEST(MemoryBudget, TheReportedSpacingGivesTheSameLayout) {
   const Scene scene;
   for (const std::uint64_t budget : {100000, 1000000, 10000000}) {
-    GateOptions options;
-    options.memory_budget = budget;
+    GateOptions options{.memory_budget = budget};
     const GateLayout layout = build_gate_layout(scene.surfaces, options);
     options.memory_budget = 0;
     options.node_spacing = layout.report.node_spacing;
@@ -86,11 +84,8 @@ TEST(MemoryBudget, WithoutClustersTheNextFinerSpacingWouldNotFit) {
   const Scene scene;
   for (const NodeStorage storage : {NodeStorage::shared, NodeStorage::per_triangle})
     for (const ResolutionRule rule : {ResolutionRule::uniform, ResolutionRule::paper}) {
-      GateOptions options;
-      options.storage = storage;
-      options.rule = rule;
-      options.cluster = false;
-      options.memory_budget = 40 * kMegabyte;
+      GateOptions options{
+          .rule = rule, .storage = storage, .cluster = false, .memory_budget = 40 * kMegabyte};
       const GateLayout layout = build_gate_layout(scene.surfaces, options);
       EXPECT_LE(testing::feature_bytes(layout, options), options.memory_budget);
       GateOptions finer = options;
@@ -104,8 +99,7 @@ TEST(MemoryBudget, WithoutClustersTheNextFinerSpacingWouldNotFit) {
 
 TEST(MemoryBudget, HalfTheBytesOfAFeatureGiveAboutTwiceTheNodes) {
   const Scene scene;
-  GateOptions options;
-  options.memory_budget = kMegabyte;
+  GateOptions options{.memory_budget = kMegabyte};
   const GateLayout full = build_gate_layout(scene.surfaces, options);
   options.bytes_per_feature = 2;
   const GateLayout half = build_gate_layout(scene.surfaces, options);
@@ -164,12 +158,11 @@ TEST(MemoryBudget, ACapDoesNotChangeALayoutThatFits) {
   const Scene scene;
   for (const ResolutionRule rule : {ResolutionRule::uniform, ResolutionRule::paper, ResolutionRule::fixed})
     for (const bool cluster : {false, true}) {
-      GateOptions options;
-      options.rule = rule;
-      options.cluster = cluster;
-      options.node_spacing = 0.3f;
-      options.resolution_scale = 0.7f;
-      options.stack = {kAdaptive, adaptive_part(4), 1};
+      GateOptions options{.stack = {kAdaptive, adaptive_part(4), 1},
+                          .rule = rule,
+                          .node_spacing = 0.3f,
+                          .resolution_scale = 0.7f,
+                          .cluster = cluster};
       const GateLayout wanted = build_gate_layout(scene.surfaces, options);
       options.memory_budget = testing::feature_bytes(wanted, options);
       options.budget_is_cap = true;
@@ -185,12 +178,11 @@ TEST(MemoryBudget, ACapMakesALayoutNoCoarserThanNecessary) {
   for (const ResolutionRule rule : {ResolutionRule::uniform, ResolutionRule::paper})
     for (const bool cluster : {false, true})
       for (const float share : {0.99f, 0.9f, 0.3f, 0.03f}) {
-        GateOptions options;
-        options.rule = rule;
-        options.cluster = cluster;
-        options.node_spacing = 0.05f;
-        options.resolution_scale = 0.7f;
-        options.stack = {kAdaptive, adaptive_part(4), adaptive_part(16)};
+        GateOptions options{.stack = {kAdaptive, adaptive_part(4), adaptive_part(16)},
+                            .rule = rule,
+                            .node_spacing = 0.05f,
+                            .resolution_scale = 0.7f,
+                            .cluster = cluster};
         const GateLayout wanted = build_gate_layout(scene.surfaces, options);
         options.memory_budget =
             static_cast<std::uint64_t>(share * static_cast<float>(testing::feature_bytes(wanted, options)));
@@ -217,10 +209,7 @@ TEST(MemoryBudget, ACapBelowTheCoarsestLayoutIsIgnored) {
   for (const ResolutionRule rule : {ResolutionRule::uniform, ResolutionRule::paper, ResolutionRule::fixed})
     for (const bool cluster : {false, true})
       for (const float spacing : {0.1f, 1e30f, std::numeric_limits<float>::max()}) {
-        GateOptions options;
-        options.rule = rule;
-        options.cluster = cluster;
-        options.node_spacing = spacing;
+        GateOptions options{.rule = rule, .node_spacing = spacing, .cluster = cluster};
         const GateLayout wanted = build_gate_layout(scene.surfaces, options);
         options.memory_budget = 100;
         options.budget_is_cap = true;
@@ -238,8 +227,7 @@ TEST(MemoryBudget, LevelsOfAllInstancesHaveClustersOfTheirOwn) {
   scene.instances.push_back({1, testing::translation(0, 0, -1)});
   scene.instances.push_back({1, testing::translation(0, 0, 101)});
   for (SurfaceInstance& instance : scene.instances) instance.sides = Sides::both;
-  GateOptions options;
-  options.stack = {kAdaptive, 1, adaptive_part(4)};
+  GateOptions options{.stack = {kAdaptive, 1, adaptive_part(4)}};
   for (const std::uint64_t nodes : {400, 1000, 2500}) {
     options.memory_budget = nodes * options.features * options.bytes_per_feature;
     const GateLayout layout = build_gate_layout(scene, options);
@@ -274,8 +262,7 @@ TEST(MemoryBudget, CellsOfDifferentScalesAreNotMerged) {
 
 TEST(MemoryBudget, AScaleOfAllInstancesScalesTheSpacing) {
   for (const std::uint64_t budget : {20'000u, 200'000u}) {
-    GateOptions options;
-    options.memory_budget = budget;
+    GateOptions options{.memory_budget = budget};
     Scene scene;
     const GateLayoutReport one = build_gate_layout(scene.surfaces, options).report;
     for (const float scale : {0x1p-40f, 0x1p40f}) {
@@ -290,8 +277,7 @@ TEST(MemoryBudget, AScaleOfAllInstancesScalesTheSpacing) {
 TEST(MemoryBudget, OneMegabyteHoldsTensOfThousandsOfInstances) {
   const Mesh mesh = testing::sphere(8, 0.5f);
   const SurfaceLayout scene = many_instances(mesh, 40000);
-  GateOptions options;
-  options.memory_budget = kMegabyte;
+  GateOptions options{.memory_budget = kMegabyte};
   const GateLayout layout = build_gate_layout(scene, options);
   EXPECT_LE(testing::feature_bytes(layout, options), kMegabyte);
   EXPECT_GE(testing::feature_bytes(layout, options), 0.9 * kMegabyte);

@@ -100,12 +100,11 @@ inline std::array<float, 12> scaling(float x, float y, float z) {
 }
 
 inline GateOptions fixed_options(std::uint32_t resolution, NodeStorage storage = NodeStorage::shared) {
-  GateOptions options;
-  options.features = 1;
-  options.stack = {kAdaptive};
-  options.rule = ResolutionRule::fixed;
-  options.fixed_resolution = resolution;
-  options.storage = storage;
+  GateOptions options{.features = 1,
+                      .stack = {kAdaptive},
+                      .rule = ResolutionRule::fixed,
+                      .fixed_resolution = resolution,
+                      .storage = storage};
   return options;
 }
 

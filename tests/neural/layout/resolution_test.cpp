@@ -25,10 +25,7 @@ Mesh triangles_with_legs(const std::vector<float>& legs) {
 }
 
 GateOptions options_of(ResolutionRule rule) {
-  GateOptions options;
-  options.rule = rule;
-  options.stack = {kAdaptive};
-  options.cluster = false;
+  GateOptions options{.stack = {kAdaptive}, .rule = rule, .cluster = false};
   return options;
 }
 

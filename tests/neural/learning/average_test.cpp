@@ -91,9 +91,7 @@ TEST(Average, IsReadByQueriesUnlessTheyRequestRawParameters) {
   const OwnedBatch points = make_batch(*model, 30, 99);
   const auto answers = [&](const Backend& from, bool averages) {
     std::vector<float> out(points.size() * 3);
-    QueryOptions options;
-    options.range = OutputRange::raw;
-    options.averaged = averages;
+    const QueryOptions options{.range = OutputRange::raw, .averaged = averages};
     from.query(points.points(), options, out);
     return out;
   };

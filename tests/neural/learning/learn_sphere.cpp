@@ -192,8 +192,7 @@ struct Precisions {
 
 /// Prints a table for one instruction set. Returns whether all errors fell as they should.
 bool learn(const Models& models, const Sphere& sphere, simd::Isa isa, const Precisions& precisions) {
-  TrainingOptions options;
-  options.precision = precisions.features;
+  const TrainingOptions options{.precision = precisions.features};
   Trainer gate(models.gate, options, cpu::make_cpu_backend(models.gate, options, isa));
   Trainer hash_grid(models.hash_grid, options, cpu::make_cpu_backend(models.hash_grid, options, isa));
   const Records test = make_records(sphere, kTestPoints, 1);

@@ -50,9 +50,7 @@ TEST(Loss, LossOfAStepIsTheMeanOverRecordsAndOutputsBeforeIt) {
     for (const Loss loss : {Loss::l2, Loss::relative_l2}) {
       const auto model = testing::find_model_case(name).model;
       const testing::OwnedBatch batch = testing::make_batch(*model, 37, 1);
-      TrainingOptions options;
-      options.loss = loss;
-      options.start_at_mean = false;
+      const TrainingOptions options{.loss = loss, .start_at_mean = false};
       const ModelState initial = initial_state(*model, options);
       const std::vector<double> parameters(initial.parameters.begin(), initial.parameters.end());
       const std::size_t outputs = model->config.mlp.outputs;
@@ -72,8 +70,7 @@ TEST(Loss, GradientOfAStepIsTheGradientOfTheMean) {
   for (const char* name : {"nrc", "hash_F4", "outputs_7"}) {
     const auto model = testing::find_model_case(name).model;
     const testing::OwnedBatch batch = testing::make_batch(*model, 23, 1);
-    TrainingOptions options;
-    options.start_at_mean = false;
+    TrainingOptions options{.start_at_mean = false};
     options.adam.l2_network = 0;
     const ModelState initial = initial_state(*model, options);
     const std::vector<double> parameters(initial.parameters.begin(), initial.parameters.end());

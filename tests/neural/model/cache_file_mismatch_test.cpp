@@ -19,8 +19,7 @@ using Change = std::function<void(ModelConfig&)>;
 TEST(CacheFileMismatch, AFeatureThatIsNotExactInFp16IsRefused) {
   const TemporaryFolder folder;
   const ModelCase c = find_model_case("nrc");
-  TrainingOptions options;
-  options.precision = FeaturePrecision::fp16;
+  const TrainingOptions options{.precision = FeaturePrecision::fp16};
   Trainer trainer = make_trainer(c, options, 1);
   ModelState state = state_of(trainer);
   state.parameters[5] = 0.1f;

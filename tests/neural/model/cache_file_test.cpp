@@ -72,8 +72,7 @@ TEST(CacheFile, EqualStatesMakeEqualBytesAndOthersDoNot) {
 TEST(CacheFile, HalfFeaturesTakeHalfTheBytes) {
   const TemporaryFolder folder;
   const ModelCase c = find_model_case("nrc");
-  TrainingOptions options;
-  options.precision = FeaturePrecision::fp16;
+  const TrainingOptions options{.precision = FeaturePrecision::fp16};
   const Trainer trainer = make_trainer(c, options, 1);
   trainer.save(folder / "a", kFingerprint);
   const ParameterLayout& layout = c.model->parameters;

@@ -12,8 +12,7 @@ namespace {
 
 void write_sample(const std::string& path, bool half) {
   const ModelCase c = make_case("sample", default_hash_config());
-  TrainingOptions options;
-  options.precision = half ? FeaturePrecision::fp16 : FeaturePrecision::fp32;
+  const TrainingOptions options{.precision = half ? FeaturePrecision::fp16 : FeaturePrecision::fp32};
   ModelState state = initial_state(*c.model, options);
   for (std::size_t i = 0; i < state.parameters.size(); ++i) {
     const float number = static_cast<float>(i % 2048) / 8;  // exact in fp16

@@ -146,11 +146,8 @@ TEST(Encode, EqualFeaturesOfALevelAreInterpolatedExactly) {
 }
 
 HashGridLayout hash_layout(std::uint32_t base, float growth, std::uint32_t levels, std::uint32_t log2_table) {
-  HashGridOptions options;
-  options.base_resolution = base;
-  options.growth = growth;
-  options.levels = levels;
-  options.log2_table_size = log2_table;
+  const HashGridOptions options{
+      .levels = levels, .base_resolution = base, .growth = growth, .log2_table_size = log2_table};
   return build_hash_grid_layout(options);
 }
 

@@ -40,8 +40,7 @@ struct Problem {
   std::vector<std::vector<double>> targets;
 
   explicit Problem(ModelCase c, std::uint64_t seed) : model_case(std::move(c)), model(*model_case.model) {
-    TrainingOptions options;
-    options.seed = seed;
+    const TrainingOptions options{.seed = seed};
     const ModelState state = initial_state(model, options);
     parameters.assign(state.parameters.begin(), state.parameters.end());
     Random random{seed + 1};

@@ -126,8 +126,7 @@ TEST(ReferenceBackend, BatchWithoutAnAcceptedRecordChangesNothing) {
 
 TEST(ReferenceBackend, TargetsBeyondTheLimitAreClampedToIt) {
   const auto model = find_model_case("nao").model;
-  TrainingOptions options;
-  options.max_target = 2.0f;
+  TrainingOptions options{.max_target = 2.0f};
   const auto clamping = make_reference_backend(model, options),
              plain = make_reference_backend(model, options);
   OwnedBatch batch = make_batch(*model, 4, 1);
@@ -178,9 +177,7 @@ TEST(ReferenceBackend, CountsTheNodesWithANonZeroWeight) {
 TEST(ReferenceBackend, WeightsWithANonFiniteGradientAreNotChanged) {
   const auto model = find_model_case("gate_only").model;
   const ParameterLayout& layout = model->parameters;
-  TrainingOptions options;
-  options.loss = Loss::l2;
-  options.start_at_mean = false;
+  TrainingOptions options{.loss = Loss::l2, .start_at_mean = false};
   const auto backend = make_reference_backend(model, options);
   ModelState state = backend->export_state();
   // The first output is infinite: so are all gradients but those of the other outputs' weights.
@@ -203,8 +200,7 @@ TEST(ReferenceBackend, WeightsWithANonFiniteGradientAreNotChanged) {
 
 TEST(ReferenceBackend, CountsEachTriangleOnceAStep) {
   const auto model = find_model_case("nrc").model;
-  TrainingOptions options;
-  options.count_triangles = true;
+  TrainingOptions options{.count_triangles = true};
   const auto backend = make_reference_backend(model, options);
   std::vector<std::uint32_t> expected(model->gate.triangle_count, 0);
   for (std::uint64_t step = 0; step < 3; ++step) {

@@ -41,8 +41,7 @@ TEST(ReferenceState, StateComesBackFromExportAndImport) {
 TEST(ReferenceState, FeaturesKeptInHalfPrecisionAreRoundedOnImport) {
   const auto model = find_model_case("nrc").model;
   for (const FeaturePrecision precision : {FeaturePrecision::fp16, FeaturePrecision::fp32}) {
-    TrainingOptions options;
-    options.precision = precision;
+    TrainingOptions options{.precision = precision};
     const auto backend = make_reference_backend(model, options);
     ModelState state = backend->export_state();
     state.parameters.front() = 0.1f;
@@ -56,8 +55,7 @@ TEST(ReferenceState, FeaturesKeptInHalfPrecisionAreRoundedOnImport) {
 
 TEST(ReferenceState, StatesOfOtherSizesAreRefused) {
   const auto model = find_model_case("nrc").model;
-  TrainingOptions options;
-  options.count_triangles = true;
+  TrainingOptions options{.count_triangles = true};
   const auto backend = make_reference_backend(model, options);
   const ModelState state = backend->export_state();
   const auto refuses = [&](auto change) {
@@ -90,8 +88,7 @@ TEST(ReferenceState, QueriesReadRoundedFeaturesAndMastersStayInFp32) {
     return out;
   };
   for (const FeaturePrecision precision : {FeaturePrecision::fp16, FeaturePrecision::fp16_masters}) {
-    TrainingOptions options;
-    options.precision = precision;
+    TrainingOptions options{.precision = precision};
     const auto backend = make_reference_backend(model, options);
     for (std::uint64_t step = 0; step < 5; ++step) backend->train(make_batch(*model, 300, step).training());
     ModelState state = backend->export_state();
@@ -113,8 +110,7 @@ TEST(ReferenceState, QueriesReadRoundedFeaturesAndMastersStayInFp32) {
 TEST(ReferenceState, HalfFeaturesStayWithinTheirRange) {
   const auto model = find_model_case("nao").model;
   for (const FeaturePrecision precision : {FeaturePrecision::fp16, FeaturePrecision::fp16_masters}) {
-    TrainingOptions options;
-    options.precision = precision;
+    TrainingOptions options{.precision = precision};
     options.adam.learning_rate = 1e5f;
     const auto backend = make_reference_backend(model, options);
     for (std::uint64_t step = 0; step < 3; ++step) backend->train(make_batch(*model, 50, step).training());
@@ -129,9 +125,7 @@ TEST(ReferenceState, HalfFeaturesStayWithinTheirRange) {
 TEST(ReferenceState, TrainingReadsRoundedMasters) {
   // Masters between two halves give the loss that the half gives.
   const auto model = find_model_case("gate_only").model;
-  TrainingOptions options;
-  options.start_at_mean = false;
-  options.precision = FeaturePrecision::fp16_masters;
+  TrainingOptions options{.precision = FeaturePrecision::fp16_masters, .start_at_mean = false};
   const OwnedBatch batch = make_batch(*model, 30, 7);
   const auto loss = [&](double offset) {
     const auto backend = make_reference_backend(model, options);

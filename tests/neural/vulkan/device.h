@@ -21,10 +21,8 @@ inline const std::shared_ptr<vulkan::ValidationMessages>& validation_messages() 
 
 /// Returns null where there is no device (or no validation layer) and GATELIGHT_REQUIRE_VULKAN is not set.
 inline std::shared_ptr<vulkan::Machine> open_test_machine(std::uint64_t longest_part = 0) {
-  vulkan::MachineOptions options;
-  options.validate = true;
-  options.messages = validation_messages();
-  options.longest_part = longest_part;
+  vulkan::MachineOptions options{
+      .validate = true, .messages = validation_messages(), .longest_part = longest_part};
   if (const char* device = std::getenv("GATELIGHT_TEST_DEVICE")) options.device = device;
   try {
     return vulkan::open_machine(options);

@@ -15,8 +15,7 @@ class VulkanExtremes : public OnVulkan {};
 void for_every_precision(const ModelCase& c, const std::function<void(Backend&)>& body) {
   for (const FeaturePrecision precision :
        {FeaturePrecision::fp32, FeaturePrecision::fp16_masters, FeaturePrecision::fp16}) {
-    TrainingOptions options;
-    options.precision = precision;
+    const TrainingOptions options{.precision = precision};
     SCOPED_TRACE(fmt::format("{} precision {}", c.name, static_cast<int>(precision)));
     body(*vulkan::make_vulkan_backend(test_machine(), c.model, options));
   }
@@ -58,8 +57,7 @@ TEST_F(VulkanExtremes, SurfacesAndTrianglesBeyondTheLayoutAreUnstored) {
 // If the outputs overflow, no gradient is finite.
 TEST_F(VulkanExtremes, WeightsAndNodesWithoutAFiniteGradientAreNotChanged) {
   const ModelCase c = find_model_case("nrc");
-  TrainingOptions options;
-  options.start_at_mean = false;
+  const TrainingOptions options{.start_at_mean = false};
   const auto device = vulkan::make_vulkan_backend(test_machine(), c.model, options);
   const auto host = cpu::make_cpu_backend(c.model, options);
   ModelState state = initial_state(*c.model, options);

@@ -47,17 +47,15 @@ TEST_F(VulkanFailures, TooLittleMemoryIsReportedWithTheDevice) {
 }
 
 TEST_F(VulkanFailures, MissingDevicesAreRefused) {
-  vulkan::MachineOptions options;
-  options.device = "99";
+  vulkan::MachineOptions options{.device = "99"};
   expect_message(refusal<Unavailable>([&] { vulkan::open_machine(options); }),
                  {"99", vulkan::machine_name(*test_machine())});
 }
 
 // A buffer of zero bytes is invalid, but harmless.
 TEST_F(VulkanFailures, AMessageOfTheValidationLayerFailsTheNextStep) {
-  vulkan::MachineOptions options;
-  options.validate = true;
-  options.messages = std::make_shared<vulkan::ValidationMessages>();
+  vulkan::MachineOptions options{.validate = true,
+                                 .messages = std::make_shared<vulkan::ValidationMessages>()};
   const auto machine = vulkan::open_machine(options);
   const ModelCase c = find_model_case("nrc");
   const OwnedBatch batch = make_batch(*c.model, 50, 1);

@@ -15,8 +15,7 @@ class VulkanLaterSteps : public OnVulkan {};
 constexpr std::pair<int, double> kTolerances[] = {{1, 2e-5}, {10, 1e-4}, {100, 1e-3}};
 
 TrainingOptions steady_options(Loss loss) {
-  TrainingOptions options;
-  options.loss = loss;
+  TrainingOptions options{.loss = loss};
   // These make the step a smooth function of the gradient. With the default epsilon a step follows the sign
   // of a gradient that is only rounding errors.
   options.adam.learning_rate = 0.01f;
