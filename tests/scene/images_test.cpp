@@ -338,13 +338,5 @@ TEST(Images, AMeshWithoutTextureCoordinatesGivesAWarning) {
   expect_messages(file.load().warnings, {{}});
 }
 
-TEST(Images, OfUnusedMaterialsAreNotDecoded) {
-  GltfBuilder file = with_image({{"uri", "absent.png"}});
-  file.root["meshes"][0]["primitives"][0].erase("material");
-  const Scene scene = file.load();
-  EXPECT_TRUE(scene.images.empty());
-  EXPECT_TRUE(scene.textures.empty());
-}
-
 }  // namespace
 }  // namespace gatelight::scene

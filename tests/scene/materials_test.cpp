@@ -328,15 +328,6 @@ TEST(TextureTransform, IsOffsetTimesRotationTimesScale) {
   EXPECT_TRUE(Vec2(slot.transform * uv).isApprox(expected, 1e-6f));
 }
 
-TEST(TextureTransform, AQuarterTurnTakesTheRightEdgeUp) {
-  const json info = {{"index", 0}, {"extensions", {{"KHR_texture_transform", {{"rotation", EIGEN_PI / 2}}}}}};
-  const TextureSlot slot =
-      only_material({{"pbrMetallicRoughness", {{"baseColorTexture", info}}}}).base_color_texture;
-  const Vec2 turned = slot.transform * Eigen::Vector3f(1, 0, 1);
-  EXPECT_NEAR(turned.x(), 0.0f, 1e-6f);
-  EXPECT_NEAR(turned.y(), -1.0f, 1e-6f) << "up is towards smaller v";
-}
-
 GltfBuilder with_variants() {
   GltfBuilder file;
   file.root["extensionsRequired"] = {"KHR_materials_variants"};

@@ -2,9 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <array>
 #include <cstdint>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -56,32 +54,6 @@ TEST(CacheFile, TrainingContinuesBitForBit) {
       EXPECT_TRUE(same_bits(state_of(loaded), state_of(straight)));
     }
   }
-}
-
-TEST(CacheFile, EqualStatesMakeEqualBytesAndOthersDoNot) {
-  const TemporaryFolder folder;
-  const ModelCase c = find_model_case("nrc");
-  const TrainingOptions options;
-  make_trainer(c, options, 1).save(folder / "a", kFingerprint);
-  make_trainer(find_model_case("nrc"), options, 1).save(folder / "b", kFingerprint);
-  make_trainer(c, options, 2).save(folder / "c", kFingerprint);
-  EXPECT_EQ(read_file(folder / "a"), read_file(folder / "b"));
-  EXPECT_NE(read_file(folder / "a"), read_file(folder / "c"));
-}
-
-TEST(CacheFile, HalfFeaturesTakeHalfTheBytes) {
-  const TemporaryFolder folder;
-  const ModelCase c = find_model_case("nrc");
-  const TrainingOptions options{.precision = FeaturePrecision::fp16};
-  const Trainer trainer = make_trainer(c, options, 1);
-  trainer.save(folder / "a", kFingerprint);
-  const ParameterLayout& layout = c.model->parameters;
-  const std::array<std::uint64_t, 2> shape = {layout.node_count, layout.features};
-  std::vector<std::uint16_t> halves(layout.network);
-  SafetensorsReader(folder / "a")
-      .read("features", TensorType::f16, shape, std::as_writable_bytes(std::span(halves)));
-  const ModelState state = state_of(trainer);
-  for (std::uint64_t i = 0; i < layout.network; ++i) ASSERT_EQ(half_to_float(halves[i]), state.parameters[i]);
 }
 
 }  // namespace
