@@ -12,21 +12,6 @@ using namespace testing;
 
 class VulkanStep : public AgreesOnVulkan {};
 
-// The other models are in every_model_slow_test.cpp.
-TEST_F(VulkanStep, AgreesForUsualModels) {
-  std::uint64_t seed = 100;
-  for (const char* name :
-       {"nrc", "nao", "gate_L16", "gate_L8_cells_0", "gate_L2_stack_64", "hash_F4", "hash_memory_target",
-        "plain_with_everything", "mlp_5x128", "mlp_1x16_no_biases", "outputs_16", "leaky_slope_0_percent"}) {
-    const ModelCase c = find_model_case(name);
-    const TrainingOptions options = smooth_options();
-    const ModelState state = random_state(*c.model, options, ++seed, false);
-    const OwnedBatch batch =
-        make_smooth_batch(*c.model, state, 60 + seed % 41, seed, {.nonfinite = 0.1f, .unstored = 0.1f});
-    agreement().expect_same_step(c.name, c.model, options, batch, state);
-  }
-}
-
 TEST_F(VulkanStep, AgreesUnderEveryOption) {
   expect_same_step_under_options(agreement(), {"nrc", "gate_L5_per_triangle_stack_5_a_1", "hash_F3"},
                                  {Loss::relative_l2});
