@@ -137,22 +137,32 @@ void compare_parameters(Problem& problem, Loss loss, const std::vector<std::size
 
 constexpr Loss kLosses[] = {Loss::l2, Loss::relative_l2};
 
-TEST(Gradient, OfWeightsAndBiasesAgreesWithCentralDifferences) {
+/// Some parameters of each layer, and of the nodes that the points read.
+std::vector<std::size_t> some_parameters(const Problem& problem, std::uint64_t seed) {
+  const ParameterLayout& layout = problem.model.parameters;
+  Random random{seed};
+  std::vector<std::size_t> chosen, features;
+  for (const LayerLayout& layer : layout.layers) {
+    for (int i = 0; i < 6; ++i) chosen.push_back(layer.weights + random.below(layer.inputs * layer.outputs));
+    for (int i = 0; layout.biases && i < 2; ++i) chosen.push_back(layer.biases + random.below(layer.outputs));
+  }
+  for (const Point& point : problem.points)
+    for (const NodeWeight& node : encoding_nodes(problem.model, point))
+      features.push_back(std::size_t{node.node} * layout.features + random.below(layout.features));
+  while (features.size() > 24)
+    features.erase(features.begin() + random.below(static_cast<std::uint32_t>(features.size())));
+  chosen.insert(chosen.end(), features.begin(), features.end());
+  return chosen;
+}
+
+TEST(Gradient, OfSomeParametersOfEveryModelAgreesWithCentralDifferences) {
   std::uint64_t seed = 100;
   for (const auto& [name, config] : all_model_configs()) {
     SCOPED_TRACE(name);
     Problem problem(make_case(name, config), seed += 10);
-    Random random{seed};
-    std::vector<std::size_t> chosen;
-    for (const LayerLayout& layer : problem.model.parameters.layers) {
-      for (int i = 0; i < 6; ++i)
-        chosen.push_back(layer.weights + random.below(layer.inputs * layer.outputs));
-      if (problem.model.parameters.biases)
-        for (int i = 0; i < 2; ++i) chosen.push_back(layer.biases + random.below(layer.outputs));
-    }
     for (const Loss loss : kLosses) {
       Comparison comparison;
-      compare_parameters(problem, loss, chosen, comparison);
+      compare_parameters(problem, loss, some_parameters(problem, seed), comparison);
       EXPECT_GT(comparison.compared, comparison.total / 4);
       EXPECT_LE(comparison.near_a_kink, comparison.total / 10);
     }
@@ -170,29 +180,6 @@ TEST(Gradient, OfEveryParameterOfASmallNetworkAgreesWithCentralDifferences) {
     Comparison comparison;
     compare_parameters(problem, loss, all, comparison);
     EXPECT_GT(comparison.compared, comparison.total * 9 / 10);
-  }
-}
-
-TEST(Gradient, OfFeatureVectorsAgreesWithCentralDifferences) {
-  std::uint64_t seed = 5000;
-  for (const auto& [name, config] : all_model_configs()) {
-    if (config.encoding == FeatureEncoding::none) continue;
-    SCOPED_TRACE(name);
-    Problem problem(make_case(name, config), seed += 10);
-    const std::uint32_t features = problem.model.parameters.features;
-    Random random{seed};
-    std::vector<std::size_t> chosen;
-    for (const Point& point : problem.points)
-      for (const NodeWeight& node : encoding_nodes(problem.model, point))
-        chosen.push_back(std::size_t{node.node} * features + random.below(features));
-    while (chosen.size() > 24)
-      chosen.erase(chosen.begin() + random.below(static_cast<std::uint32_t>(chosen.size())));
-    for (const Loss loss : kLosses) {
-      Comparison comparison;
-      compare_parameters(problem, loss, chosen, comparison);
-      EXPECT_GT(comparison.compared, comparison.total / 4);
-      EXPECT_LE(comparison.near_a_kink, comparison.total / 10);
-    }
   }
 }
 
