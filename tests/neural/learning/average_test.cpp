@@ -5,8 +5,7 @@
 
 #include "neural/learning/adam.h"
 #include "neural/reference/reference_backend.h"
-#include "tests/support/model_batches.h"
-#include "tests/support/model_cases.h"
+#include "tests/support/agreement.h"
 
 namespace gatelight::neural::reference {
 namespace {
@@ -90,10 +89,7 @@ TEST(Average, IsReadByQueriesUnlessTheyRequestRawParameters) {
   for (std::uint64_t step = 0; step < 5; ++step) backend->train(make_batch(*model, 100, step).training());
   const OwnedBatch points = make_batch(*model, 30, 99);
   const auto answers = [&](const Backend& from, bool averages) {
-    std::vector<float> out(points.size() * 3);
-    const QueryOptions options{.range = OutputRange::raw, .averaged = averages};
-    from.query(points.points(), options, out);
-    return out;
+    return testing::raw_answers(from, *model, points, averages);
   };
   ModelState swapped = backend->export_state();
   std::swap(swapped.parameters, swapped.averages);

@@ -17,7 +17,7 @@
 namespace gatelight::neural::reference {
 namespace {
 
-using testing::BatchOptions;
+using testing::answers;
 using testing::Fate;
 using testing::find_model_case;
 using testing::make_batch;
@@ -25,13 +25,6 @@ using testing::OwnedBatch;
 
 constexpr const char* kCases[] = {
     "nrc", "nao", "hash_F4", "gate_with_everything", "gate_L5_per_triangle", "plain_roughness_one_blob_8"};
-
-std::vector<float> answers(const Backend& backend, const Model& model, const OwnedBatch& points,
-                           const QueryOptions& options = {}) {
-  std::vector<float> out(points.size() * model.config.mlp.outputs);
-  backend.query(points.points(), options, out);
-  return out;
-}
 
 TEST(ReferenceBackend, BatchesWithSpansOfTheWrongLengthAreRefusedAndChangeNothing) {
   const auto model = find_model_case("gate_with_everything").model;
@@ -226,7 +219,7 @@ TEST(ReferenceBackend, QueriesOfBadPointsAnswerFiniteNumbers) {
     const auto backend = make_reference_backend(model, {});
     const OwnedBatch points =
         make_batch(*model, 300, 3, {.nonfinite = 0.5f, .unstored = 0.3f, .border = 0.5f});
-    for (const float answer : answers(*backend, *model, points)) {
+    for (const float answer : answers(*backend, *model, points, {})) {
       EXPECT_TRUE(std::isfinite(answer));
       EXPECT_GE(answer, 0.0f);
     }
@@ -242,7 +235,7 @@ TEST(ReferenceBackend, EveryConfigurationTrainsAndStaysFinite) {
     EXPECT_EQ(statistics.records, 8u) << name;
     EXPECT_EQ(statistics.skipped_updates, 0u) << name;
     EXPECT_EQ(statistics.touched_nodes > 0, config.encoding != FeatureEncoding::none) << name;
-    for (const float answer : answers(*backend, *model, batch)) EXPECT_TRUE(std::isfinite(answer)) << name;
+    for (const float answer : answers(*backend, *model, batch, {})) EXPECT_TRUE(std::isfinite(answer)) << name;
   }
 }
 

@@ -10,8 +10,7 @@
 #include "base/errors.h"
 #include "base/half.h"
 #include "neural/reference/reference_backend.h"
-#include "tests/support/model_batches.h"
-#include "tests/support/model_cases.h"
+#include "tests/support/agreement.h"
 
 namespace gatelight::neural::reference {
 namespace {
@@ -82,11 +81,6 @@ TEST(ReferenceState, QueriesReadRoundedFeaturesAndMastersStayInFp32) {
     return count;
   };
   const OwnedBatch points = make_batch(*model, 50, 7);
-  const auto answers = [&](const Backend& backend) {
-    std::vector<float> out(points.size() * model->config.mlp.outputs);
-    backend.query(points.points(), {}, out);
-    return out;
-  };
   for (const FeaturePrecision precision : {FeaturePrecision::fp16, FeaturePrecision::fp16_masters}) {
     TrainingOptions options{.precision = precision};
     const auto backend = make_reference_backend(model, options);
@@ -97,12 +91,12 @@ TEST(ReferenceState, QueriesReadRoundedFeaturesAndMastersStayInFp32) {
     else
       EXPECT_LT(holds(state), model->parameters.network * 9 / 10);
     // A backend in fp32 with the rounded features gives the same answers.
-    const std::vector<float> half = answers(*backend);
+    const std::vector<float> half = testing::answers(*backend, *model, points, {});
     for (std::size_t p = 0; p < model->parameters.network; ++p)
       state.averages[p] = half_to_float(float_to_half(state.averages[p]));
     const auto rounded = make_reference_backend(model, {});
     rounded->import_state(state);
-    const std::vector<float> full = answers(*rounded);
+    const std::vector<float> full = testing::answers(*rounded, *model, points, {});
     for (std::size_t i = 0; i < half.size(); ++i) EXPECT_NEAR(half[i], full[i], 1e-5f);
   }
 }
