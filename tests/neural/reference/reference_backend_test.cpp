@@ -235,7 +235,8 @@ TEST(ReferenceBackend, EveryConfigurationTrainsAndStaysFinite) {
     EXPECT_EQ(statistics.records, 8u) << name;
     EXPECT_EQ(statistics.skipped_updates, 0u) << name;
     EXPECT_EQ(statistics.touched_nodes > 0, config.encoding != FeatureEncoding::none) << name;
-    for (const float answer : answers(*backend, *model, batch, {})) EXPECT_TRUE(std::isfinite(answer)) << name;
+    for (const float answer : answers(*backend, *model, batch, {}))
+      EXPECT_TRUE(std::isfinite(answer)) << name;
   }
 }
 
