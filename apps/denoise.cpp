@@ -56,7 +56,7 @@ std::vector<Option> denoise_table(DenoiseSettings& settings) {
   add_layer("normal-layer", settings.layers.normal,
             "Normals of the visible surfaces, or none (default: by the usual names)");
   for (Option& option : picture_options(settings.render)) {
-    if (option.of_denoise) table.push_back(std::move(option));
+    if (option.marks.of_denoise) table.push_back(std::move(option));
   }
   return table;
 }

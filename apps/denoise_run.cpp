@@ -66,7 +66,7 @@ void apply_recipe(const renderer::Picture& picture, const std::set<std::string>&
     }
   };
   for (Option& option : picture_options(settings.render)) {
-    if (option.of_denoise && option.in_recipe == InRecipe::always) read(option);
+    if (option.marks.of_denoise && option.marks.in_recipe == InRecipe::always) read(option);
   }
   std::vector<Option> files;
   OptionGroup group{files, ""};

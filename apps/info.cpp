@@ -191,12 +191,12 @@ Subcommand add_info_command(CLI::App& root) {
       "Scene, .gltf or .glb, or a rendered .exr; without it: version, ISA, threads, Embree, denoiser, "
       "Vulkan devices");
   scene.required = false;
-  Option json = any_word("json", settings->json, "FILE|-", "The same as JSON; - is stdout");
-  json.group = "Output";
-  Option command =
-      toggle("command", settings->command, "Print only the command line that made PICTURE.exr, for a shell");
-  command.group = "Output";
-  std::vector<Option> options = {scene, common(json), common(command)};
+  std::vector<Option> options = {scene};
+  OptionGroup output{options, "Output"};
+  output.add(any_word("json", settings->json, "FILE|-", "The same as JSON; - is stdout"), {.common = true});
+  output.add(
+      toggle("command", settings->command, "Print only the command line that made PICTURE.exr, for a shell"),
+      {.common = true});
   const std::vector<Option> of_cache = cache_report_table(settings->render);
   options.insert(options.end(), of_cache.begin(), of_cache.end());
   add_flags(*app, options);

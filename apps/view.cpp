@@ -60,8 +60,10 @@ std::vector<Option> window_options(WindowSettings& window) {
     if (option.positional) option.help = "Scene (.gltf, .glb) or finished picture";
   }
   OptionGroup group{table, "Window"};
-  group.add(common(number("port", window.port, {0, 65535}, "N", "Port of this machine; 0: any free one")));
-  group.add(common(toggle("no-browser", window.no_browser, "Print the address and open no browser")));
+  group.add(number("port", window.port, {0, 65535}, "N", "Port of this machine; 0: any free one"),
+            {.common = true});
+  group.add(toggle("no-browser", window.no_browser, "Print the address and open no browser"),
+            {.common = true});
   return table;
 }
 

@@ -26,7 +26,7 @@ constexpr const char* kKind = "gatelight field 1";
 apps::RenderSettings read_cache_keywords(const py::dict& keywords) {
   apps::RenderSettings settings = read_keywords(keywords);
   require_given(
-      settings, [](const apps::Option& option) { return option.of_field; }, "a field does not use it",
+      settings, [](const apps::Option& option) { return option.marks.of_field; }, "a field does not use it",
       "one of features, network or training");
   if (!settings.given.contains("loss")) settings.render.cache.training.loss = neural::Loss::l2;
   settings.render.cache.training.seed += settings.render.seed;

@@ -153,7 +153,8 @@ void replace_keywords(py::dict& keywords, const py::dict& newer) {
   apps::RenderSettings settings;
   for (const Option& option : apps::option_table(settings)) {
     if (!newer.contains(keyword_of(option.name))) continue;
-    for (const std::string& other : option.excludes) keywords.attr("pop")(keyword_of(other), py::none());
+    for (const std::string& other : option.marks.excludes)
+      keywords.attr("pop")(keyword_of(other), py::none());
   }
   for (const auto& [name, value] : newer) keywords[name] = value;
 }
@@ -175,8 +176,8 @@ void add_options(py::module_& module) {
                              : shows                        ? option.text()
                                                             : "";
           entry["group"] = option.group;
-          entry["common"] = option.common;
-          entry["loading"] = option.stage == apps::OptionStage::load;
+          entry["common"] = option.marks.common;
+          entry["loading"] = option.marks.stage == apps::OptionStage::load;
           all[py::str(keyword_of(option.name))] = entry;
         }
         return all;

@@ -66,7 +66,7 @@ renderer::ImageWriteOptions image_options(const PictureData& data, const py::kwa
   shown.exposure = data.image.display.exposure;
   apps::RenderSettings settings = read_keywords(keywords, std::move(shown));
   require_given(
-      settings, [](const apps::Option& option) { return option.stage == apps::OptionStage::output; },
+      settings, [](const apps::Option& option) { return option.marks.stage == apps::OptionStage::output; },
       "it is no option of a file");
   settings.image.display.exposure =
       settings.exposure ? *settings.exposure : renderer::auto_exposure(data.picture);

@@ -43,10 +43,10 @@ class Busy {
 apps::RenderSettings settings_for(const SceneData& scene, const py::dict& keywords) {
   apps::RenderSettings settings = read_keywords(keywords);
   require_given(
-      settings, [](const Option& option) { return option.stage != OptionStage::program; },
+      settings, [](const Option& option) { return option.marks.stage != OptionStage::program; },
       "the module has no such option", "it in `gatelight render`");
   require_given(
-      settings, [](const Option& option) { return option.stage != OptionStage::load; },
+      settings, [](const Option& option) { return option.marks.stage != OptionStage::load; },
       "it belongs to loading", "it in gatelight.load");
   settings.scene = scene.source.path;
   settings.load = scene.loading.load;
@@ -137,7 +137,7 @@ void Running::set_camera(const py::dict& keywords) {
   const Busy busy(busy_);
   require_given(
       read_keywords(keywords),
-      [](const Option& option) { return option.of_view || option.name == "view-file"; },
+      [](const Option& option) { return option.marks.of_view || option.name == "view-file"; },
       "it is no option of the view");
   py::dict merged = keywords_.attr("copy")();
   replace_keywords(merged, keywords);

@@ -68,8 +68,8 @@ ScenePointer load_scene(const std::string& path, const py::dict& keywords) {
   require_given(
       settings,
       [](const apps::Option& option) {
-        return option.stage == apps::OptionStage::load || option.name == "threads" || option.name == "fps" ||
-               option.name == "shutter";
+        return option.marks.stage == apps::OptionStage::load || option.name == "threads" ||
+               option.name == "fps" || option.name == "shutter";
       },
       "it does not belong to loading", "it in gatelight.render");
   settings.scene = path;

@@ -37,10 +37,10 @@ ordered_json resolved_options(RenderSettings settings) {
   const std::set<std::string> without_effect = options_without_effect(settings);
   ordered_json json;
   for (const Option& option : table) {
-    const bool said = option.in_recipe == InRecipe::always ||
-                      (option.in_recipe == InRecipe::unless_reproducible && !settings.reproducible);
+    const InRecipe in_recipe = option.marks.in_recipe;
+    const bool said = settings.reproducible ? in_recipe == InRecipe::always : in_recipe != InRecipe::never;
     if (!said || without_effect.contains(option.name)) continue;
-    const ordered_json value = std::visit(Json{option.of_cache}, option.value());
+    const ordered_json value = std::visit(Json{option.marks.of_cache}, option.value());
     if (!value.is_null()) json[option.name] = value;
   }
   return json;

@@ -138,16 +138,16 @@ void add_self_training_options(OptionGroup& group, SelfTrainingOptions& options)
              options.start_step =
                  text == "off" ? -1 : static_cast<int>(parse_integer("self-training", text, kSteps));
            }},
-      {kNrc});
+      {.needs = {kNrc}});
   group.add(number("self-training-vertices", vertices, kPaths, "N",
                    "Vertices that become records before the cache answers for the rest of the path"),
-            {kNrc, kSelfTraining});
+            {.needs = {kNrc, kSelfTraining}});
   group.add(number("self-training-full", full_fraction, kFraction, "FRACTION",
                    "Part of the training paths that still run to their end, 0 to 1"),
-            {kNrc, kSelfTraining});
+            {.needs = {kNrc, kSelfTraining}});
   group.add(number("self-training-attenuation", attenuation, kFraction, "FACTOR",
                    "Multiplies the cache's answer at the end of a training path, 0 to 1"),
-            {kNrc, kSelfTraining});
+            {.needs = {kNrc, kSelfTraining}});
 }
 
 /// Two of its flags are in another group.
@@ -157,7 +157,7 @@ void add_training_options(OptionGroup& group, neural::TrainingOptions& options) 
   auto& [learning_rate, beta1, beta2, epsilon, l2_network, decay_steps] = adam;
   auto& [average_network, average_features, average_decay, average_ramp] = average;
   const auto add = [&](Option option, std::vector<Requirement> needs = {}) -> Option& {
-    return group.add(of_field(std::move(option)), std::move(needs));
+    return group.add(std::move(option), {.of_field = true, .needs = std::move(needs)});
   };
   add(number("learning-rate", learning_rate, kNotNegative, "X", "Size of a training step (of Adam)"));
   add(number("learning-decay", decay_steps, kNotNegative, "STEPS",
@@ -179,17 +179,20 @@ void add_training_options(OptionGroup& group, neural::TrainingOptions& options) 
 
 void add_learning_options(std::vector<Option>& table, CacheOptions& options) {
   OptionGroup group{table, "Cache, learning"};
-  group.add(common(number_or("auto", "train-steps", options.train_steps, kSteps, "N",
-                             "Training steps before the picture; auto: by its pixels and samples; 0: none")));
-  group.add(not_in_sweep(number("train-time", options.train_seconds, kNotNegative, "SECONDS",
-                                "No further step after this time of training; 0: no limit")));
-  group.add(of_field(number("batch", options.batch, {1, 1 << 24}, "N",
-                            "Records (points with their light) in a training step")));
+  group.add(number_or("auto", "train-steps", options.train_steps, kSteps, "N",
+                      "Training steps before the picture; auto: by its pixels and samples; 0: none"),
+            {.common = true});
+  group.add(number("train-time", options.train_seconds, kNotNegative, "SECONDS",
+                   "No further step after this time of training; 0: no limit"),
+            {.in_sweep = false});
+  group.add(number("batch", options.batch, {1, 1 << 24}, "N",
+                   "Records (points with their light) in a training step"),
+            {.of_field = true});
   group.add(
       number("train-path-length", options.path_length, {0, 65536}, "N",
              "0: only Russian roulette ends a training path, and each vertex becomes a record; N: paths "
              "of N segments, and only the first vertex does, as in the paper"),
-      {kNrc});
+      {.needs = {kNrc}});
   group.add(number("samples-per-point", options.samples_per_point, kPaths, "N",
                    "Paths whose mean becomes the record of a training point"));
   group.add(choice("training-points", options.source,
@@ -198,10 +201,10 @@ void add_learning_options(std::vector<Option>& table, CacheOptions& options) {
   group.add(number("samples-from-step", options.samples_from_step, kSteps, "N",
                    "First step whose paths are samples that stay in the picture; they end in the cache as "
                    "it is then"),
-            {kPicturePoints});
+            {.needs = {kPicturePoints}});
   group.add(number("candidates", options.candidates, {1, 1024}, "M",
                    "Candidates for each training point; with more, triangles are trained more evenly"),
-            {kTriangles});
+            {.needs = {kTriangles}});
   add_self_training_options(group, options.self_training);
   add_training_options(group, options.training);
 }
@@ -210,7 +213,7 @@ void add_gate_options(OptionGroup& group, neural::GateOptions& options, std::opt
   auto& [features, stack, rule, node_spacing, resolution_scale, fixed_resolution, max_resolution, storage,
          cluster, memory_budget, budget_is_cap, bytes_per_feature] = options;
   const auto add = [&](Option option, std::vector<Requirement> needs = {kGate}) {
-    group.add(of_field(std::move(option)), std::move(needs));
+    group.add(std::move(option), {.of_field = true, .needs = std::move(needs)});
   };
   add(number("features", features, kFeatures, "L", "gate: numbers in a feature vector"));
   add({.name = "stack",
@@ -240,7 +243,9 @@ void add_gate_options(OptionGroup& group, neural::GateOptions& options, std::opt
 void add_hash_grid_options(OptionGroup& group, neural::HashGridOptions& options) {
   auto& [levels, features, base_resolution, growth, log2_table_size, memory_target, bytes_per_feature,
          bounds_min, bounds_max] = options;
-  const auto add = [&](Option option) { group.add(of_field(std::move(option)), {kHashGrid}); };
+  const auto add = [&](Option option) {
+    group.add(std::move(option), {.of_field = true, .needs = {kHashGrid}});
+  };
   add(number("hash-levels", levels, {1, neural::kMaxHashLevels}, "N", "hashgrid: levels"));
   add(number("hash-features", features, kFeatures, "N", "hashgrid: numbers in an entry"));
   add(number("hash-log2-size", log2_table_size, {3, 31}, "N",
@@ -253,7 +258,7 @@ void add_hash_grid_options(OptionGroup& group, neural::HashGridOptions& options)
 void add_shape_options(std::vector<Option>& table, CacheOptions& options) {
   auto& [width, hidden_layers, outputs, leaky_slope, biases] = options.mlp;
   OptionGroup group{table, "Cache, what it is"};
-  const auto add = [&](Option option) { group.add(of_field(std::move(option))); };
+  const auto add = [&](Option option) { group.add(std::move(option), {.of_field = true}); };
   add(choice("encoding", options.encoding,
              // The first encodes nothing.
              Choices<FeatureEncoding>(kEnumNames<FeatureEncoding>).subspan(1),
@@ -279,13 +284,13 @@ void add_shape_options(std::vector<Option>& table, CacheOptions& options) {
       choice("direction-input", options.direction_input, kInputs,
              "The network reads the direction of view; auto: where a material of the scene depends on it "
              "and --cache-roughness is below 0.5"),
-      {kNrc});
+      {.needs = {kNrc}});
   add(choice("normal-input", options.normal_input, kInputs,
              "The network reads the normal; auto: yes, but as in the paper where gate has --resolution "
              "paper"));
   group.add(choice("albedo-input", options.albedo_input, kInputs,
                    "The network reads the albedo; auto: with the hash grid"),
-            {kNrcOrHashGrid});
+            {.needs = {kNrcOrHashGrid}});
   group.add(choice("scout", options.scout, kOnOff,
                    "Trace some paths first and keep features only for the sides of instances that they hit"));
 }
@@ -295,32 +300,32 @@ void add_answer_options(std::vector<Option>& table, CacheOptions& options) {
   group.add(choice("cache-holds", options.component,
                    "Reflected light that the cache stores: all, all but direct light of point, spot and "
                    "directional lights, or indirect light only"),
-            {kNrc});
+            {.needs = {kNrc}});
   group.add(
       choice(
           "query-at", options.query_at,
           "Where a path ends in the cache's answer: first hit (fast), next hit after a wide scattering event "
           "(accurate), where the path has spread out, or nowhere"),
-      {kNrc, kFinalView});
+      {.needs = {kNrc, kFinalView}});
   group.add(
       choice("view", options.view,
              "final: the picture; cache: the bare answer at the first hit, without emission and reflectance"),
-      {kNrc});
+      {.needs = {kNrc}});
   group.add(number("cache-roughness", options.min_roughness, kFraction, "X",
                    "Reflections at least this rough come from the cache, sharper ones are traced, 0 to 1"),
-            {kNrc});
+            {.needs = {kNrc}});
   group.add(number("spread-threshold", options.spread_threshold, kNotNegative, "X",
                    "For --query-at spread: spread of the path over that of its first segment; more is later"),
-            {kNrc, kSpread});
-  group.add(
-      of_field(choice("query-precision", options.bf16_queries, kPrecisions,
-                      "Arithmetic of answers in the picture; bf16 is faster where the processor has it")));
+            {.needs = {kNrc, kSpread}});
+  group.add(choice("query-precision", options.bf16_queries, kPrecisions,
+                   "Arithmetic of answers in the picture; bf16 is faster where the processor has it"),
+            {.of_field = true});
   group.add({.name = "device",
              .unit = "cpu|vulkan[:INDEX|NAME]",
              .help = "Device that trains and evaluates the cache",
              .value = [&options] { return options.device; },
-             .read = [&options](const std::string& text) { options.device = read_device(text); },
-             .of_field = true});
+             .read = [&options](const std::string& text) { options.device = read_device(text); }},
+            {.of_field = true});
 }
 
 }  // namespace
@@ -335,18 +340,17 @@ void add_cache_options(std::vector<Option>& table, CacheOptions& options) {
   add_learning_options(table, options);
   add_shape_options(table, options);
   add_answer_options(table, options);
-  for (std::size_t i = others; i < table.size(); ++i) table[i].of_cache = true;
+  for (std::size_t i = others; i < table.size(); ++i) table[i].marks.of_cache = true;
 }
 
 void add_cache_file_options(std::vector<Option>& table, CacheOptions& options) {
   OptionGroup files{table, "Files"};
-  files.add(common(not_in_sweep(
-      any_word("cache-in", options.cache_in, "FILE",
-               "Start from a cache that --cache-out wrote, of the same scene and cache flags"))));
-  files.add(in_recipe(common(not_in_sweep(any_word("cache-out", options.cache_out, "FILE",
-                                                   "Write the trained cache, .safetensors"))),
-                      InRecipe::unless_reproducible));
-  for (const std::size_t back : {1, 2}) table[table.size() - back].of_cache = true;
+  files.add(any_word("cache-in", options.cache_in, "FILE",
+                     "Start from a cache that --cache-out wrote, of the same scene and cache flags"),
+            {.common = true, .in_sweep = false, .of_cache = true});
+  files.add(
+      any_word("cache-out", options.cache_out, "FILE", "Write the trained cache, .safetensors"),
+      {.common = true, .in_sweep = false, .of_cache = true, .in_recipe = InRecipe::unless_reproducible});
 }
 
 }  // namespace gatelight::apps

@@ -121,11 +121,11 @@ ErrorParts no_cache(const RenderOptions& o) {
 /// Why an option has no effect here; without a problem where it has one.
 ErrorParts why_without_effect(const Option& option, const RenderOptions& options) {
   ErrorParts why;
-  for (const Requirement& need : option.needs) {
+  for (const Requirement& need : option.marks.needs) {
     if (why.problem.empty() && !need.met(options))
       why = {.problem = "it has no effect here", .expected = std::string("it with ") + need.expected};
   }
-  if (option.of_cache && !uses_cache(options.integrator)) why = no_cache(options);
+  if (option.marks.of_cache && !uses_cache(options.integrator)) why = no_cache(options);
   why.option = option.name;
   return why;
 }
@@ -138,7 +138,7 @@ void resolve_integrator(RenderSettings& settings) {
   if (o.integrator == Integrator::path) renderer::use_integrator(o, Integrator::path);
   if (!o.choose_integrator) return;
   for (const Option& option : option_table(settings)) {
-    if (option.of_cache && settings.given.contains(option.name)) o.choose_integrator = false;
+    if (option.marks.of_cache && settings.given.contains(option.name)) o.choose_integrator = false;
   }
 }
 

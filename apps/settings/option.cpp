@@ -42,7 +42,7 @@ Option any_words(const char* name, std::vector<std::string>& member, const char*
 std::set<std::string> common_names(const std::vector<Option>& options) {
   std::set<std::string> names;
   for (const Option& option : options) {
-    if (option.common) names.insert(option.name);
+    if (option.marks.common) names.insert(option.name);
   }
   return names;
 }

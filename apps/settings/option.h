@@ -31,7 +31,12 @@ using OptionValue = std::variant<std::monostate, bool, std::int64_t, float, doub
 /// "on", "3", "0.1", "sobol", "1,2,3"; "" for nothing.
 std::string text_of(const OptionValue& value);
 
-enum class InRecipe : std::uint8_t { always, unless_reproducible, never };
+enum class InRecipe : std::uint8_t {
+  always,
+  unless_reproducible,
+  of_machine,  ///< unless reproducible; ranks that make one picture may differ in it
+  never,
+};
 
 /// A condition without which an option has no effect. The option is then refused, and left out of recipes.
 struct Requirement {
@@ -45,6 +50,22 @@ enum class OptionStage : std::uint8_t {
   render,   ///< decides the picture
   output,   ///< decides how a finished picture is shown and written
   program,  ///< of the program's call, which the Python module does not have
+};
+
+/// Where an option is used, beside its flag of `render`.
+struct Marks {
+  bool common = false;      ///< the short help has it
+  bool of_view = false;     ///< a member of --view-file, and a window changes it
+  bool in_window = false;   ///< a window changes it while it is open
+  bool in_sweep = true;     ///< false: files, the progress of one picture, limits that end it early
+  bool of_cache = false;    ///< has no effect without a cache
+  bool of_field = false;    ///< a cache without light transport (gatelight.Cache of Python) has it
+  bool of_denoise = false;  ///< it finishes a picture that is there already
+  OptionStage stage = OptionStage::render;
+  InRecipe in_recipe = InRecipe::always;
+  std::vector<Requirement> needs{};
+  std::vector<std::string> excludes{};           ///< options that it replaces
+  std::vector<renderer::ImageFormat> formats{};  ///< files that it changes; empty: all
 };
 
 struct Option {
@@ -63,23 +84,9 @@ struct Option {
   std::string default_text;       ///< in the help, where it is not text()
   bool required = false;
   bool positional = false;
-  int words = 1;          ///< values that a list takes each time
-  bool of_cache = false;  ///< has no effect without a cache
-  bool common = false;    ///< the short help has it
-  bool of_view = false;   ///< a member of --view-file
-  std::vector<Requirement> needs;
+  int words = 1;  ///< values that a list takes each time
 
-  // Where else it is used.
-  OptionStage stage = OptionStage::render;
-  bool in_sweep = true;     ///< false: files, the progress of one picture, limits that end it early
-  bool in_window = false;   ///< a window changes it while it is open
-  bool of_field = false;    ///< a cache without light transport (gatelight.Cache of Python) has it
-  bool of_denoise = false;  ///< it finishes a picture that is there already
-  std::vector<std::string> excludes{};           ///< options that it replaces
-  std::vector<renderer::ImageFormat> formats{};  ///< files that it changes; empty: all
-
-  // In files.
-  InRecipe in_recipe = InRecipe::always;
+  Marks marks{};
 
   std::string flag() const { return "--" + name; }
   std::string text() const { return write ? write() : text_of(value()); }
@@ -95,60 +102,15 @@ struct OptionGroup {
   std::vector<Option>& options;
   std::string name;
 
-  Option& add(Option option, std::vector<Requirement> needs = {}) {
+  Option& add(Option option, Marks marks = {}) {
     option.group = name;
-    option.needs = std::move(needs);
+    option.marks = std::move(marks);
     return options.emplace_back(std::move(option));
   }
 };
 
 /// The names of the options that the short help has.
 std::set<std::string> common_names(const std::vector<Option>& options);
-
-// Each returns the option with one mark.
-inline Option in_recipe(Option option, InRecipe in_recipe) {
-  option.in_recipe = in_recipe;
-  return option;
-}
-inline Option common(Option option) {
-  option.common = true;
-  return option;
-}
-inline Option in_window(Option option) {
-  option.in_window = true;
-  return option;
-}
-/// Windows change the view too.
-inline Option of_view(Option option) {
-  option.of_view = option.in_window = true;
-  return option;
-}
-inline Option not_in_sweep(Option option) {
-  option.in_sweep = false;
-  return option;
-}
-inline Option of_field(Option option) {
-  option.of_field = true;
-  return option;
-}
-inline Option of_denoise(Option option) {
-  option.of_denoise = true;
-  return option;
-}
-inline Option of_program(Option option) {
-  option.stage = OptionStage::program;
-  option.in_sweep = false;
-  option.in_recipe = InRecipe::never;
-  return option;
-}
-inline Option excluding(std::vector<std::string> others, Option option) {
-  option.excludes = std::move(others);
-  return option;
-}
-inline Option of_formats(std::vector<renderer::ImageFormat> formats, Option option) {
-  option.formats = std::move(formats);
-  return option;
-}
 
 template <class Value>
 OptionValue value_of(const Value& value) {

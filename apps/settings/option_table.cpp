@@ -36,17 +36,20 @@ constexpr Choice<ProgressMode> kProgressModes[] = {{"auto", ProgressMode::automa
 void add_call_options(OptionGroup& group, RenderSettings& settings) {
   auto& [scene, outputs, render, load, frames, image, exposure, eye, target, up, view_file, config, stats,
          skip_existing, progress, reproducible, quiet, verbose, preset, given] = settings;
-  const auto add = [&](Option option) {
-    group.add(in_recipe(not_in_sweep(std::move(option)), InRecipe::never));
+  const auto add = [&](Option option, Marks marks = {}) {
+    marks.in_sweep = false;
+    marks.in_recipe = InRecipe::never;
+    group.add(std::move(option), std::move(marks));
   };
-  add(of_program(toggle("skip-existing", skip_existing,
-                        "Leave out frames, and cameras, whose pictures are there already")));
+  add(toggle("skip-existing", skip_existing,
+             "Leave out frames, and cameras, whose pictures are there already"),
+      {.stage = OptionStage::program});
   add(toggle(
       "reproducible", reproducible,
       "Leave times, threads and the command line out of the EXR header: equal renders give equal files"));
-  add(common(any_word("stats", stats, "FILE|-", "Statistics as JSON; - is stdout")));
-  add(progress_option(progress));
-  add(common(toggle("quiet", quiet, "Print errors only")));
+  add(any_word("stats", stats, "FILE|-", "Statistics as JSON; - is stdout"), {.common = true});
+  add(progress_option(progress), {.common = true});
+  add(toggle("quiet", quiet, "Print errors only"), {.common = true});
   add(toggle("verbose", verbose, "Print more: what was loaded, the memory needed, all options"));
 }
 
@@ -68,19 +71,20 @@ void add_load_options(OptionGroup& group, scene::LoadOptions& load) {
   // All transforms are baked; --shutter and --threads of the picture set the other two.
   [[maybe_unused]] auto& [scene, variant, time, shutter, animation, missing_is_error, allow_external, ignored,
                           show_hidden, back_faces, lights, profiles, bake_transforms, threads] = load;
-  const auto add = [&](Option option) -> Option& {
-    option.stage = OptionStage::load;
-    return group.add(std::move(option));
+  const auto add = [&](Option option, Marks marks = {}) -> Option& {
+    marks.stage = OptionStage::load;
+    return group.add(std::move(option), std::move(marks));
   };
   add(number("scene-index", scene, kScenes, "N", "Which scene of the file; -1: its default"));
-  add(common(any_word("variant", variant, "NAME", "Material variant of the file, by name"))).value = [&load] {
-    return load.variant;
-  };
-  add(common(in_window(number_or("", "time", time, kSeconds, "SECONDS",
-                                 "Moment of the file's animations; else the pose of its nodes"))));
-  add(in_window(any_word("animation", animation, "NAME|INDEX|none",
-                         "Animation that --time shows; else all of the file together, but of those that "
-                         "animate the same value only the first")));
+  add(any_word("variant", variant, "NAME", "Material variant of the file, by name"), {.common = true}).value =
+      [&load] { return load.variant; };
+  add(number_or("", "time", time, kSeconds, "SECONDS",
+                "Moment of the file's animations; else the pose of its nodes"),
+      {.common = true, .in_window = true});
+  add(any_word("animation", animation, "NAME|INDEX|none",
+               "Animation that --time shows; else all of the file together, but of those that animate the "
+               "same value only the first"),
+      {.in_window = true});
   add(toggle("show-hidden", show_hidden, "Show nodes that the file hides (KHR_node_visibility)"));
   add(choice(
       "backfaces", back_faces, kBackFaces,
@@ -93,8 +97,8 @@ void add_load_options(OptionGroup& group, scene::LoadOptions& load) {
        .value = [&chosen = lights]() -> OptionValue {
          return chosen.empty() ? OptionValue() : text_of(chosen);
        },
-       .read = [&chosen = lights](const std::string& text) { chosen = read_lights("lights", text); },
-       .in_window = true});
+       .read = [&chosen = lights](const std::string& text) { chosen = read_lights("lights", text); }},
+      {.in_window = true});
   add({.name = "ies",
        .unit = "NAME=FILE;...",
        .help =
@@ -120,19 +124,20 @@ void add_load_options(OptionGroup& group, scene::LoadOptions& load) {
 
 void add_frame_options(OptionGroup& group, FrameSettings& frames) {
   auto& [range, fps, turntable, shutter, groups] = frames;
-  const auto add = [&](Option option) {
+  const auto add = [&](Option option, Marks marks = {}) {
     const auto value = std::move(option.value);
     option.value = [value, &chosen = frames.range]() -> OptionValue {
       return chosen ? value() : OptionValue();
     };
-    group.add(not_in_sweep(std::move(option)));
+    marks.in_sweep = false;
+    group.add(std::move(option), std::move(marks));
   };
-  add(common(
-      {.name = "frames",
+  add({.name = "frames",
        .unit = "A:B[:STEP]",
        .help = "Frames, or a list as 1,3,5-9, each to its own file: -o frame-%04d.exr, #### or {frame}",
        .value = [&chosen = range]() -> OptionValue { return text_of(*chosen); },
-       .read = [&chosen = range](const std::string& text) { chosen = parse_frames("frames", text); }}));
+       .read = [&chosen = range](const std::string& text) { chosen = parse_frames("frames", text); }},
+      {.common = true});
   add({.name = "fps",
        .unit = "N",
        .help = "Frames of a second: frame n shows the time n / N; also 30000/1001",
@@ -140,7 +145,7 @@ void add_frame_options(OptionGroup& group, FrameSettings& frames) {
        .read = [&chosen = fps](const std::string& text) { chosen = parse_fps("fps", text); }});
   add(number("turntable", turntable, kTurns, "N",
              "The camera goes around what it looks at, once in N frames; alone it renders these"));
-  group.add(not_in_sweep(
+  group.add(
       {.name = "shutter",
        .unit = "OPEN:CLOSE",
        .help = "Motion blur: the shutter is open from a frame's time plus OPEN to that plus CLOSE, both in "
@@ -148,10 +153,12 @@ void add_frame_options(OptionGroup& group, FrameSettings& frames) {
        .value = [&chosen = shutter]() -> OptionValue {
          return chosen.is_open() ? text_of(chosen) : OptionValue();
        },
-       .read = [&chosen = shutter](const std::string& text) { chosen = parse_shutter("shutter", text); }}));
-  group.add(of_program(number("frame-groups", groups, kGroups, "N",
-                              "Groups of the ranks of gatelight-mpi: each renders every N-th "
-                              "frame; only where frames do not depend on each other")));
+       .read = [&chosen = shutter](const std::string& text) { chosen = parse_shutter("shutter", text); }},
+      {.in_sweep = false});
+  group.add(number("frame-groups", groups, kGroups, "N",
+                   "Groups of the ranks of gatelight-mpi: each renders every N-th "
+                   "frame; only where frames do not depend on each other"),
+            {.in_sweep = false, .stage = OptionStage::program, .in_recipe = InRecipe::never});
 }
 
 Option preset_option(std::optional<CachePreset>& preset) {
@@ -168,8 +175,7 @@ Option preset_option(std::optional<CachePreset>& preset) {
       .value = [&preset] { return preset ? enum_name(*preset) : OptionValue(); },
       .read = read,
       .group = "Light transport",
-      .common = true,
-      .in_recipe = InRecipe::unless_reproducible};
+      .marks = {.common = true, .in_recipe = InRecipe::unless_reproducible}};
 }
 
 }  // namespace
@@ -179,41 +185,38 @@ void add_picture_files(OptionGroup& group, std::vector<std::string>& outputs,
   auto& [exr_float, bits, display, edited] = image;          // `edited` is no option
   auto& [exposure, white_balance, tonemap, ocio] = display;  // `stops` sets the exposure
   auto& [ocio_config, ocio_display, ocio_view] = ocio;
-  Option& output = group.add(common(not_in_sweep(any_words(
-      "output", outputs, "FILE|-",
-      "Picture to write, .exr, .png, .jpg, .tif or .hdr; may be given several times. - is stdout, as PNG; "
-      "exr:- and the like choose its format"))));
+  Option& output = group.add(
+      any_words("output", outputs, "FILE|-",
+                "Picture to write, .exr, .png, .jpg, .tif or .hdr; may be given several times. - is stdout, "
+                "as PNG; exr:- and the like choose its format"),
+      {.common = true, .in_sweep = false, .in_recipe = InRecipe::unless_reproducible});
   output.letter = "-o";
   output.required = true;
-  output.in_recipe = InRecipe::unless_reproducible;
-  const auto add = [&](Option option) -> Option& {
-    option.stage = OptionStage::output;
-    return group.add(std::move(option));
+  const auto add = [&](Option option, Marks marks) {
+    marks.stage = OptionStage::output;
+    group.add(std::move(option), std::move(marks));
   };
   const std::vector<ImageFormat> shown = {ImageFormat::png, ImageFormat::jpeg, ImageFormat::tiff};
-  add(not_in_sweep(
-      of_formats({ImageFormat::exr}, choice("exr", exr_float, kExr, "Precision of colours in EXR files"))));
-  add(common(in_window(of_formats(shown, number_or("auto", "exposure", stops, kStops, "EV",
-                                                   "Stops by which displayed pictures (PNG, JPEG, TIFF) are "
-                                                   "brighter; auto, that of presets of radiance: "
-                                                   "by the picture's own light, printed at the end")))));
-  add(not_in_sweep(
-      in_window(of_formats(shown, number("white-balance", white_balance, kKelvin, "KELVIN",
-                                         "Colour of light that displayed pictures show as white")))));
-  add(common(in_window(
-      of_formats(shown, choice("tonemap", tonemap,
-                               "Curve of displayed pictures; the presets of finished pictures have agx")))));
-  add(not_in_sweep(of_formats({ImageFormat::png, ImageFormat::tiff},
-                              choice("bits", bits, kBits, "Bits of a channel in PNG and TIFF files"))));
-  const auto add_ocio = [&](const char* name, std::string& member, const char* unit, const char* help) {
-    add(not_in_sweep(of_formats(shown, any_word(name, member, unit, help)))).value = [&] {
-      return member.empty() ? OptionValue() : member;
-    };
-  };
-  add_ocio("ocio", ocio_config, "FILE",
-           "OpenColorIO configuration, whose view replaces --tonemap and sRGB in displayed pictures");
-  add_ocio("ocio-display", ocio_display, "NAME", "Its display (default: that of the configuration)");
-  add_ocio("ocio-view", ocio_view, "NAME", "Its view (default: that of the display)");
+  add(choice("exr", exr_float, kExr, "Precision of colours in EXR files"),
+      {.in_sweep = false, .formats = {ImageFormat::exr}});
+  add(number_or("auto", "exposure", stops, kStops, "EV",
+                "Stops by which displayed pictures (PNG, JPEG, TIFF) are brighter; auto, that of presets of "
+                "radiance: by the picture's own light, printed at the end"),
+      {.common = true, .in_window = true, .formats = shown});
+  add(number("white-balance", white_balance, kKelvin, "KELVIN",
+             "Colour of light that displayed pictures show as white"),
+      {.in_window = true, .in_sweep = false, .formats = shown});
+  add(choice("tonemap", tonemap, "Curve of displayed pictures; the presets of finished pictures have agx"),
+      {.common = true, .in_window = true, .formats = shown});
+  add(choice("bits", bits, kBits, "Bits of a channel in PNG and TIFF files"),
+      {.in_sweep = false, .formats = {ImageFormat::png, ImageFormat::tiff}});
+  const Marks of_ocio = {.in_sweep = false, .formats = shown};
+  add(any_word("ocio", ocio_config, "FILE",
+               "OpenColorIO configuration, whose view replaces --tonemap and sRGB in displayed pictures"),
+      of_ocio);
+  add(any_word("ocio-display", ocio_display, "NAME", "Its display (default: that of the configuration)"),
+      of_ocio);
+  add(any_word("ocio-view", ocio_view, "NAME", "Its view (default: that of the display)"), of_ocio);
 }
 
 Option external_option(bool& allowed) {
@@ -222,14 +225,13 @@ Option external_option(bool& allowed) {
 }
 
 Option progress_option(ProgressMode& mode) {
-  return common(not_in_sweep(
-      choice("progress", mode, kProgressModes, "Progress on stderr; auto: a bar on a terminal")));
+  return choice("progress", mode, kProgressModes, "Progress on stderr; auto: a bar on a terminal");
 }
 
 Option positional(const char* name, std::string& member, const char* help) {
   Option option = any_word(name, member, "", help);
   option.positional = option.required = true;
-  option.in_recipe = InRecipe::never;
+  option.marks.in_recipe = InRecipe::never;
   return option;
 }
 
@@ -253,18 +255,17 @@ std::vector<Option> option_table(RenderSettings& settings) {
     }
     if (name != "camera") continue;
     const auto& camera = render.camera;
-    view.add(common(of_view(excluding({"camera"}, by_hand("eye", eye, camera, &LookAt::eye,
-                                                          "Camera position, in metres (with --target)")))));
-    view.add(common(of_view(excluding({"camera"}, by_hand("target", target, camera, &LookAt::target,
-                                                          "Point that the camera looks at, in metres")))));
-    view.add(
-            of_view(excluding({"camera"}, by_hand("up", up, camera, &LookAt::up, "Up direction with --eye"))))
+    const Marks common = {.common = true, .of_view = true, .excludes = {"camera"}};
+    view.add(by_hand("eye", eye, camera, &LookAt::eye, "Camera position, in metres (with --target)"), common);
+    view.add(by_hand("target", target, camera, &LookAt::target, "Point that the camera looks at, in metres"),
+             common);
+    view.add(by_hand("up", up, camera, &LookAt::up, "Up direction with --eye"),
+             {.of_view = true, .excludes = {"camera"}})
         .default_text = "0,1,0";
-    view.add(any_word(
-                 "view-file", view_file, "FILE",
-                 "JSON object with the view: camera, eye, target, up, fov, lens, projection, view-height, "
-                 "aperture, focus, blades; flags beside it win"))
-        .in_recipe = InRecipe::never;
+    view.add(any_word("view-file", view_file, "FILE",
+                      "JSON object with the view: camera, eye, target, up, fov, lens, projection, "
+                      "view-height, aperture, focus, blades; flags beside it win"),
+             {.in_recipe = InRecipe::never});
   }
   return table;
 }

@@ -52,21 +52,24 @@ OptionValue words_of(const std::vector<Enumeration>& values) {
 void add_checkpoint_options(std::vector<Option>& table, CheckpointOptions& checkpoint) {
   auto& [file, every_seconds, resume] = checkpoint;
   OptionGroup files{table, "Files"};
-  const auto add = [&](Option option) {
+  const auto add = [&](Option option, Marks marks = {}) {
     option.default_text = option.text();
     option.value = [&checkpoint, value = option.value] {
       return checkpoint.file.empty() ? OptionValue() : value();
     };
-    files.add(in_recipe(option, InRecipe::unless_reproducible));
+    marks.in_sweep = false;
+    marks.in_recipe = InRecipe::unless_reproducible;
+    files.add(std::move(option), std::move(marks));
   };
-  add(common(
-      not_in_sweep(any_word("checkpoint", file, "FILE",
-                            "Write a file from which --resume continues after the program has ended"))));
-  add(not_in_sweep(number("checkpoint-every", every_seconds, kNotNegative, "SECONDS",
-                          "Time between two writes of the checkpoint")));
-  add(common(not_in_sweep(toggle(
-      "resume", resume,
-      "Continue from the checkpoint if it exists; the picture is the same as without the interruption"))));
+  add(any_word("checkpoint", file, "FILE",
+               "Write a file from which --resume continues after the program has ended"),
+      {.common = true});
+  add(number("checkpoint-every", every_seconds, kNotNegative, "SECONDS",
+             "Time between two writes of the checkpoint"));
+  add(toggle(
+          "resume", resume,
+          "Continue from the checkpoint if it exists; the picture is the same as without the interruption"),
+      {.common = true});
 }
 
 Option size_option(int& width, int& height) {
@@ -81,9 +84,7 @@ Option size_option(int& width, int& height) {
           .help = "Size of the picture in pixels",
           .value = value,
           .read = read,
-          .write = [&] { return fmt::format("{}x{}", width, height); },
-          .common = true,
-          .in_window = true};
+          .write = [&] { return fmt::format("{}x{}", width, height); }};
 }
 
 Option region_option(std::optional<std::array<int, 4>>& region) {
@@ -108,10 +109,7 @@ Option aov_option(std::vector<Aov>& aovs) {
           .unit = "LIST",
           .help = help,
           .value = [&] { return words_of(aovs); },
-          .read = [&](const std::string& text) { aovs = read_words<Aov>("aov", text, "all"); },
-          .common = true,
-          .in_sweep = false,
-          .formats = {ImageFormat::exr}};
+          .read = [&](const std::string& text) { aovs = read_words<Aov>("aov", text, "all"); }};
 }
 
 Option cryptomatte_option(std::vector<MatteKind>& kinds) {
@@ -122,9 +120,7 @@ Option cryptomatte_option(std::vector<MatteKind>& kinds) {
               "layers of the Cryptomatte specification, six names a pixel; glass and mirrors are objects "
               "themselves",
           .value = [&]() -> OptionValue { return kinds.empty() ? OptionValue() : words_of(kinds); },
-          .read = [&](const std::string& text) { kinds = read_words<MatteKind>("cryptomatte", text); },
-          .in_sweep = false,
-          .formats = {ImageFormat::exr}};
+          .read = [&](const std::string& text) { kinds = read_words<MatteKind>("cryptomatte", text); }};
 }
 
 Option light_groups_option(std::vector<LightGroup>& groups) {
@@ -136,8 +132,7 @@ Option light_groups_option(std::vector<LightGroup>& groups) {
               "environment; 'rest' is that of all others; with --integrator path: "
               "\"key=Sun,Lamp*;sky=environment\"",
           .value = [&]() -> OptionValue { return groups.empty() ? OptionValue() : text_of(groups); },
-          .read = [&](const std::string& text) { groups = read_light_groups(text); },
-          .formats = {ImageFormat::exr}};
+          .read = [&](const std::string& text) { groups = read_light_groups(text); }};
 }
 
 Option integrator_option(Integrator& integrator, bool& choose) {
@@ -161,8 +156,7 @@ Option integrator_option(Integrator& integrator, bool& choose) {
               "trained first (nrc, nao); auto, that of the presets: nrc, or path where light paths are too "
               "short for a cache to pay off",
           .value = value,
-          .read = read,
-          .common = true};
+          .read = read};
 }
 
 constexpr Requirement kDenoiser{
@@ -179,53 +173,50 @@ constexpr Requirement kDenoiserOrLayers{
 
 void add_denoise_options(OptionGroup& picture, DenoiseOptions& options) {
   auto& [denoiser, prefilter, supersampling, temporal, library] = options;
-  picture.add(common(choice("denoiser", denoiser,
-                            "Denoises the finished picture: Open Image Denoise (oidn), the same where it "
-                            "is found (auto, that of the presets), or nothing")));
+  picture.add(choice("denoiser", denoiser,
+                     "Denoises the finished picture: Open Image Denoise (oidn), the same where it "
+                     "is found (auto, that of the presets), or nothing"),
+              {.common = true});
   picture.add(
-      of_denoise(choice(
-          "prefilter", prefilter,
-          "Albedo and normal before they guide the denoiser: denoised themselves (accurate); read as they "
-          "are, for half the time (none): their noise shows in glass and behind lenses; or read by a "
-          "smaller network that expects noise in them, for a third of the time (fast)")),
-      {kDenoiserOrLayers});
+      choice("prefilter", prefilter,
+             "Albedo and normal before they guide the denoiser: denoised themselves (accurate); read as they "
+             "are, for half the time (none): their noise shows in glass and behind lenses; or read by a "
+             "smaller network that expects noise in them, for a third of the time (fast)"),
+      {.of_denoise = true, .needs = {kDenoiserOrLayers}});
   picture.add(choice("supersampling", supersampling, kSupersampling,
                      "Render and denoise at this many times the width and height, with the same number of "
                      "samples, and scale by the pixel filter: better edges of bright windows, worse fine "
                      "textures, four times the denoiser's time"),
-              {kDenoiser});
-  picture.add(
-      not_in_sweep(choice("temporal", temporal, kOnOff,
-                          "Frames take over samples of earlier frames where they show the same surface "
-                          "in the same light, before the denoiser")),
-      {kDenoiser});
-  picture.add(
-      in_recipe(of_denoise(any_word("oidn", library, "FILE|FOLDER",
-                                    "Open Image Denoise 2, libOpenImageDenoise.so.2 (default: GATELIGHT_OIDN "
-                                    "of the environment, else where scripts/setup or the system have it)")),
-                InRecipe::unless_reproducible),
-      {kDenoiser});
+              {.needs = {kDenoiser}});
+  picture.add(choice("temporal", temporal, kOnOff,
+                     "Frames take over samples of earlier frames where they show the same surface "
+                     "in the same light, before the denoiser"),
+              {.in_sweep = false, .needs = {kDenoiser}});
+  picture.add(any_word("oidn", library, "FILE|FOLDER",
+                       "Open Image Denoise 2, libOpenImageDenoise.so.2 (default: GATELIGHT_OIDN "
+                       "of the environment, else where scripts/setup or the system have it)"),
+              {.of_denoise = true, .in_recipe = InRecipe::of_machine, .needs = {kDenoiser}});
 }
 
 /// Checkpoints store the chosen instruction sets separately.
 void add_machine_options(std::vector<Option>& table, int& threads, std::size_t& memory_limit_bytes,
                          std::string& isa) {
   OptionGroup machine{table, "Machine"};
-  machine.add(in_recipe(common(of_denoise(number("threads", threads, {0, 1024}, "N",
-                                                 "0: as many as the machine and the control group allow"))),
-                        InRecipe::unless_reproducible));
+  const Marks of_machine = {.common = true, .of_denoise = true, .in_recipe = InRecipe::of_machine};
+  machine.add(
+      number("threads", threads, {0, 1024}, "N", "0: as many as the machine and the control group allow"),
+      of_machine);
   const auto read_limit = [&](const std::string& text) {
     memory_limit_bytes = static_cast<std::size_t>(parse_integer("memory-limit", text, kMebibytes)) << 20;
   };
-  machine.add(in_recipe({.name = "memory-limit",
-                         .unit = "MIB",
-                         .help = "Largest memory, in MiB; more is refused; 0: no limit",
-                         .value = [&] { return value_of(memory_limit_bytes >> 20); },
-                         .read = read_limit,
-                         .common = true,
-                         .of_denoise = true},
-                        InRecipe::unless_reproducible));
-  machine.add(of_field(choice("isa", isa, kIsa, "Instruction set of ray tracing, shading and the cache")));
+  machine.add({.name = "memory-limit",
+               .unit = "MIB",
+               .help = "Largest memory, in MiB; more is refused; 0: no limit",
+               .value = [&] { return value_of(memory_limit_bytes >> 20); },
+               .read = read_limit},
+              of_machine);
+  machine.add(choice("isa", isa, kIsa, "Instruction set of ray tracing, shading and the cache"),
+              {.of_field = true});
 }
 
 }  // namespace
@@ -241,38 +232,42 @@ std::vector<Option> picture_options(RenderOptions& options) {
   add_cache_file_options(table, cache);
 
   OptionGroup picture{table, "Picture"};
-  picture.add(size_option(width, height));
+  picture.add(size_option(width, height), {.common = true, .in_window = true});
   picture.add(region_option(region));
-  picture.add(common(in_window(number("spp", spp, {1, kUnlimitedSpp}, "N",
-                                      "Samples per pixel; a limit with --time-limit or --max-error"))));
-  picture.add(common(not_in_sweep(
-      number("time-limit", time_limit_seconds, kNotNegative, "SECONDS",
-             "Time of scouting, training, rendering and denoising together; it decides --spp and the "
-             "steps of a preset where they are not given; loading, building and writing come on top; 0: no "
-             "limit"))));
-  picture.add(common(not_in_sweep(number(
-      "max-error", max_error, kNotNegative, "E",
-      "Stop where the estimated error of the picture is at most this, as 0.05: relative RMS, the "
-      "square root of compare's rel_mse, without the bias of a cache; without --spp at 65536 samples at "
-      "the latest; 0: off"))));
-  picture.add(common(in_window(of_field(number("seed", seed, {0, std::numeric_limits<std::uint32_t>::max()},
-                                               "N", "Seed of all random numbers")))));
+  picture.add(number("spp", spp, {1, kUnlimitedSpp}, "N",
+                     "Samples per pixel; a limit with --time-limit or --max-error"),
+              {.common = true, .in_window = true});
+  picture.add(number("time-limit", time_limit_seconds, kNotNegative, "SECONDS",
+                     "Time of scouting, training, rendering and denoising together; it decides --spp and the "
+                     "steps of a preset where they are not given; loading, building and writing come on "
+                     "top; 0: no limit"),
+              {.common = true, .in_sweep = false});
+  picture.add(number("max-error", max_error, kNotNegative, "E",
+                     "Stop where the estimated error of the picture is at most this, as 0.05: relative RMS, "
+                     "the square root of compare's rel_mse, without the bias of a cache; without --spp at "
+                     "65536 samples at the latest; 0: off"),
+              {.common = true, .in_sweep = false});
+  picture.add(
+      number("seed", seed, {0, std::numeric_limits<std::uint32_t>::max()}, "N", "Seed of all random numbers"),
+      {.common = true, .in_window = true, .of_field = true});
   picture.add(choice("sampler", sampler, "Kind of random numbers"));
-  picture.add(of_denoise(choice("filter", filter, "Pixel filter")));
-  picture.add(of_denoise(number("filter-width", filter_width, {0.0, 32.0}, "PIXELS",
-                                "Full width of the pixel filter; 0: the filter's own")));
+  picture.add(choice("filter", filter, "Pixel filter"), {.of_denoise = true});
+  picture.add(number("filter-width", filter_width, {0.0, 32.0}, "PIXELS",
+                     "Full width of the pixel filter; 0: the filter's own"),
+              {.of_denoise = true});
   add_denoise_options(picture, denoise);
-  picture.add(aov_option(aovs));
-  picture.add(cryptomatte_option(cryptomattes));  // film and checkpoint do not store it
-  picture.add(light_groups_option(light_groups));
+  picture.add(aov_option(aovs), {.common = true, .in_sweep = false, .formats = {ImageFormat::exr}});
+  // Film and checkpoint do not store it.
+  picture.add(cryptomatte_option(cryptomattes), {.in_sweep = false, .formats = {ImageFormat::exr}});
+  picture.add(light_groups_option(light_groups), {.formats = {ImageFormat::exr}});
 
   add_view_options(table, camera, environment, background);
 
   OptionGroup light{table, "Light transport"};
-  light.add(integrator_option(integrator, choose_integrator));
-  light.add(
-      common(in_window(number_or("none", "max-depth", max_depth, kDepth, "N",
-                                 "Largest number of scattering events; 1: emission and direct light"))));
+  light.add(integrator_option(integrator, choose_integrator), {.common = true});
+  light.add(number_or("none", "max-depth", max_depth, kDepth, "N",
+                      "Largest number of scattering events; 1: emission and direct light"),
+            {.common = true, .in_window = true});
   light.add(number_or("none", "max-transmission-depth", max_transmission_depth, kDepth, "N",
                       "Largest number of them that go to the other side of a surface; panes do not count"));
   light.add(number("min-depth", min_depth, kDepth, "N", "Russian roulette starts after this many events"));
@@ -293,8 +288,8 @@ std::vector<Option> picture_options(RenderOptions& options) {
                                    "METRES", "Reach of ambient occlusion; inf allowed"));
   reach.value = [&options] { return options.ao_distance < 0.0f ? OptionValue() : options.ao_distance; };
   reach.default_text = "a tenth of the scene's diagonal";
-  light.add(common(in_window(
-      number("clamp", clamp, kNotNegative, "X", "Largest luminance of one sample (biased); 0: off"))));
+  light.add(number("clamp", clamp, kNotNegative, "X", "Largest luminance of one sample (biased); 0: off"),
+            {.common = true, .in_window = true});
   light.add(choice("nan", nan_policy, "Treatment of a sample that is not finite"));
 
   add_cache_options(table, cache);

@@ -26,10 +26,10 @@ std::vector<std::string> unused_output_flags(RenderSettings settings) {
   for (const std::string& output : settings.outputs) formats.insert(output_format(output));
   std::vector<std::string> unused;
   for (const Option& option : option_table(settings)) {
-    if (!settings.given.contains(option.name) || option.formats.empty()) continue;
+    if (!settings.given.contains(option.name) || option.marks.formats.empty()) continue;
     std::vector<std::string> extensions;
     bool useful = false;
-    for (const ImageFormat format : option.formats) {
+    for (const ImageFormat format : option.marks.formats) {
       useful |= formats.contains(format);
       extensions.emplace_back(kExtensions[static_cast<int>(format)]);
     }

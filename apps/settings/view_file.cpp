@@ -27,7 +27,7 @@ std::string text_of(const json& value) {
 /// Whether options beside the file replace a member: its own, or one that excludes it.
 bool replaced(const std::set<std::string>& given, const Option& member) {
   return given.contains(member.name) ||
-         std::any_of(member.excludes.begin(), member.excludes.end(),
+         std::any_of(member.marks.excludes.begin(), member.marks.excludes.end(),
                      [&](const std::string& other) { return given.contains(other); });
 }
 
@@ -47,7 +47,7 @@ void read_view_file(RenderSettings& settings) {
   if (settings.view_file.empty()) return;
   const json view = read_object(settings.view_file);
   std::vector<Option> table = option_table(settings);
-  std::erase_if(table, [](const Option& option) { return !option.of_view; });
+  std::erase_if(table, [](const Option& option) { return !option.marks.of_view; });
   for (const auto& [name, value] : view.items()) {
     const auto option = std::find_if(table.begin(), table.end(),
                                      [&wanted = name](const Option& o) { return o.name == wanted; });

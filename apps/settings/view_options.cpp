@@ -67,24 +67,23 @@ void read_aperture(LensOptions& lens, const std::string& text) {
 
 void add_lens_options(OptionGroup& view, LensOptions& lens) {
   [[maybe_unused]] auto& [aperture, f_stop, focus, blades] = lens;  // one flag sets the first two
-  const auto add = [&](Option option) -> Option& { return view.add(std::move(option)); };
   const auto aperture_value = [&lens]() -> OptionValue {
     return lens.f_stop > 0.0f ? fmt::format("f/{}", lens.f_stop) : fmt::format("{}", lens.aperture);
   };
-  add({.name = "aperture",
+  view.add(
+      {.name = "aperture",
        .unit = "f/N|METRES",
-       .help =
-           "Aperture of the lens, as an f-stop or its diameter: objects out of focus are blurred; 0: all is "
-           "sharp",
+       .help = "Aperture of the lens, as an f-stop or its diameter: objects out of focus are blurred; 0: "
+               "all is sharp",
        .value = aperture_value,
-       .read = [&lens](const std::string& text) { read_aperture(lens, text); },
-       .of_view = true,
-       .in_window = true});
-  add(of_view(any_word("focus", focus, "METRES|NODE",
-                       "With --aperture: distance along the view, or an object (default: the distance in the "
-                       "middle of the picture, which is reported)")))
-      .value = [&lens] { return lens.focus.empty() ? OptionValue() : lens.focus; };
-  add(of_view(number("blades", blades, {0, 64}, "N", "With --aperture: its corners; 0: round")));
+       .read = [&lens](const std::string& text) { read_aperture(lens, text); }},
+      {.of_view = true});
+  view.add(any_word("focus", focus, "METRES|NODE",
+                    "With --aperture: distance along the view, or an object (default: the distance in the "
+                    "middle of the picture, which is reported)"),
+           {.of_view = true});
+  view.add(number("blades", blades, {0, 64}, "N", "With --aperture: its corners; 0: round"),
+           {.of_view = true});
 }
 
 }  // namespace
@@ -93,80 +92,73 @@ void add_lens_options(OptionGroup& view, LensOptions& lens) {
 void add_view_options(std::vector<Option>& table, renderer::CameraOptions& camera,
                       renderer::EnvironmentOptions& environment, renderer::BackgroundOptions& background) {
   OptionGroup view{table, "Scene and view"};
-  const auto add = [&](Option option) -> Option& { return view.add(std::move(option)); };
   // Flags of the application set look_at, frames set turn.
   [[maybe_unused]] auto& [name, index, look_at, fov_degrees, focal_mm, projection, view_height, lens, turn,
                           turn_in_shutter] = camera;
-  add(common(of_view(excluding(
-          {"eye", "target", "up"},
-          any_word("camera", name, "NAME|INDEX",
-                   "Camera of the file, by its name, its node's or its index (default: the first); all of "
-                   "them with 'all' and {camera} in the outputs' names")))))
+  view.add(any_word("camera", name, "NAME|INDEX",
+                    "Camera of the file, by its name, its node's or its index (default: the first); all of "
+                    "them with 'all' and {camera} in the outputs' names"),
+           {.common = true, .of_view = true, .excludes = {"eye", "target", "up"}})
       .value = [&camera] { return camera.look_at || camera.name.empty() ? OptionValue() : camera.name; };
   // Beyond these bounds tangents leave the range of single precision.
-  add(common(of_view(excluding({"lens"}, number_or("", "fov", fov_degrees, {0.001, 179.9}, "DEGREES",
-                                                   "Vertical field of view; overrides the camera's")))));
-  add(of_view(excluding(
-      {"fov"}, number_or("", "lens", focal_mm, {0.1, 1e5}, "MM",
-                         "The same by a focal length, with 36 mm across the wider side of the picture"))));
-  add(of_view(
-      choice("projection", projection,
-             "As the camera of the file, or one of these; a panorama shows all directions around the camera "
-             "(latitude-longitude, expected twice as wide as high)")));
-  add(of_view(number_or("", "view-height", view_height, {.min = 0.0, .max = 2e12, .excludes_min = true},
-                        "METRES", "Height of the view of an orthographic picture")));
+  view.add(number_or("", "fov", fov_degrees, {0.001, 179.9}, "DEGREES",
+                     "Vertical field of view; overrides the camera's"),
+           {.common = true, .of_view = true, .excludes = {"lens"}});
+  view.add(number_or("", "lens", focal_mm, {0.1, 1e5}, "MM",
+                     "The same by a focal length, with 36 mm across the wider side of the picture"),
+           {.of_view = true, .excludes = {"fov"}});
+  view.add(choice("projection", projection,
+                  "As the camera of the file, or one of these; a panorama shows all directions around the "
+                  "camera (latitude-longitude, expected twice as wide as high)"),
+           {.of_view = true});
+  view.add(number_or("", "view-height", view_height, {.min = 0.0, .max = 2e12, .excludes_min = true},
+                     "METRES", "Height of the view of an orthographic picture"),
+           {.of_view = true});
   add_lens_options(view, lens);
   [[maybe_unused]] auto& [automatic, file, constant, sky, rotation_degrees, scale] =
       environment;  // one flag sets the first three
-  add({.name = "environment",
+  view.add(
+      {.name = "environment",
        .unit = "auto|none|r,g,b|FILE",
        .help = "Light from all around: a soft sky if no light shows the scene (auto), one radiance, or a "
                "latitude-longitude .exr or .hdr",
        .value = [&environment] { return environment_value(environment); },
-       .read = [&environment](const std::string& text) { read_environment(environment, text); },
-       .common = true,
-       .in_window = true,
-       .excludes = {"sky"}});
-  add({.name = "sky",
-       .unit = "none|clear|PART=VALUE,...",
-       .help = "Instead of --environment a clear sky with a sun: turbidity=3, sun=AZIMUTH,ELEVATION "
-               "(degrees; north "
-               "is -z, east +x), ground=ALBEDO, size=0.53 (of the sun's disc in degrees; 0: a directional "
-               "light), "
-               "intensity=1; or date=2026-06-21, time=14:30, place=LATITUDE,LONGITUDE, zone=+2 instead of "
-               "the sun; "
-               "a white surface in full daylight has a radiance of 1",
-       .value = [&environment]() -> OptionValue {
-         return environment.sky ? text_of(*environment.sky) : "none";
-       },
-       .read =
-           [&environment](const std::string& text) {
-             environment.sky.reset();
-             if (text != "none") environment.sky = read_sky("sky", text);
-           },
-       .in_window = true,
-       .excludes = {"environment"}});
+       .read = [&environment](const std::string& text) { read_environment(environment, text); }},
+      {.common = true, .in_window = true, .excludes = {"sky"}});
+  view.add({.name = "sky",
+            .unit = "none|clear|PART=VALUE,...",
+            .help = "Instead of --environment a clear sky with a sun: turbidity=3, sun=AZIMUTH,ELEVATION "
+                    "(degrees; north is -z, east +x), ground=ALBEDO, size=0.53 (of the sun's disc in "
+                    "degrees; 0: a directional light), intensity=1; or date=2026-06-21, time=14:30, "
+                    "place=LATITUDE,LONGITUDE, zone=+2 instead of the sun; a white surface in full daylight "
+                    "has a radiance of 1",
+            .value = [&environment]() -> OptionValue {
+              return environment.sky ? text_of(*environment.sky) : "none";
+            },
+            .read =
+                [&environment](const std::string& text) {
+                  environment.sky.reset();
+                  if (text != "none") environment.sky = read_sky("sky", text);
+                }},
+           {.in_window = true, .excludes = {"environment"}});
   // One flag sets the first three.
   [[maybe_unused]] auto& [kind, color, background_file, shadow_catcher] = background;
-  view.add({.name = "background",
-            .unit = "scene|transparent|r,g,b|FILE",
-            .help =
-                "Background behind the scene, also through holes and panes: the environment, nothing (the "
-                "picture has an alpha), one radiance or a picture; mirrors and solid glass show the "
-                "environment",
-            .value = [&background] { return background_value(background); },
-            .read = [&background](const std::string& text) { read_background(background, text); },
-            .common = true,
-            .in_window = true,
-            .of_denoise = true});
+  view.add(
+      {.name = "background",
+       .unit = "scene|transparent|r,g,b|FILE",
+       .help = "Background behind the scene, also through holes and panes: the environment, nothing (the "
+               "picture has an alpha), one radiance or a picture; mirrors and solid glass show the "
+               "environment",
+       .value = [&background] { return background_value(background); },
+       .read = [&background](const std::string& text) { read_background(background, text); }},
+      {.common = true, .in_window = true, .of_denoise = true});
   view.add(any_word("shadow-catcher", shadow_catcher, "NODE",
-                    "With --background: an object of the file that is invisible but for the shadows on it"))
-      .value = [&background] {
-    return background.shadow_catcher.empty() ? OptionValue() : background.shadow_catcher;
-  };
-  add(in_window(number("environment-rotation", rotation_degrees, kAnyFloat, "DEGREES",
-                       "Turns the environment about +y, counter-clockwise from above")));
-  add(common(in_window(number("environment-scale", scale, kNotNegative, "X", "Multiplies the environment"))));
+                    "With --background: an object of the file that is invisible but for the shadows on it"));
+  view.add(number("environment-rotation", rotation_degrees, kAnyFloat, "DEGREES",
+                  "Turns the environment about +y, counter-clockwise from above"),
+           {.in_window = true});
+  view.add(number("environment-scale", scale, kNotNegative, "X", "Multiplies the environment"),
+           {.common = true, .in_window = true});
 }
 
 }  // namespace gatelight::apps

@@ -61,7 +61,7 @@ void check_vary(const std::string& flag) {
     if (flag == other.flag) throw BadOption({"vary", flag, "has a flag of its own", other.use});
   }
   if (option_names([](const Option& option) {
-        return option.stage == OptionStage::load;
+        return option.marks.stage == OptionStage::load;
       }).contains(flag.substr(2))) {
     throw BadOption({"vary", flag, "decides which scene is loaded", "one value for all cells"});
   }
@@ -231,7 +231,7 @@ std::vector<std::string> find_base_flags() {
   std::vector<std::string> names;
   RenderSettings settings;
   for (const Option& option : option_table(settings)) {
-    if (!option.in_sweep || option.positional || option.unit.empty()) continue;
+    if (!option.marks.in_sweep || option.positional || option.unit.empty()) continue;
     const std::string flag = option.flag();
     const bool axis = std::any_of(std::begin(kAxisFlags), std::end(kAxisFlags),
                                   [&](const AxisFlag& f) { return flag == f.name; });

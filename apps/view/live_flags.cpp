@@ -21,7 +21,7 @@ const std::map<std::string, std::vector<std::string>>& live_options() {
     std::map<std::string, std::vector<std::string>> live;
     RenderSettings settings;
     for (const Option& option : option_table(settings)) {
-      if (option.in_window) live[option.name] = option.excludes;
+      if (option.marks.in_window || option.marks.of_view) live[option.name] = option.marks.excludes;
     }
     return live;
   }();

@@ -35,8 +35,9 @@ PictureFile::Viewer& PictureFile::viewer(const std::string& name) {
 }
 
 std::uint64_t PictureFile::change(const std::string& name, const FlagChange& flags, const std::string&) {
-  const std::set<std::string> known = option_names(
-      [](const Option& option) { return option.in_window && option.stage == OptionStage::output; });
+  const std::set<std::string> known = option_names([](const Option& option) {
+    return option.marks.in_window && option.marks.stage == OptionStage::output;
+  });
   for (const auto& [flag, value] : flags) {
     if (!known.contains(flag))
       throw BadOption({one_line(flag), "", "a finished picture does not change by it"});

@@ -78,7 +78,7 @@ bool is_of_gate(const Option& option, const RenderOptions& options) {
   if (std::set<std::string>{"candidates", "feature-step", "node-spacing"}.contains(option.name)) return false;
   RenderOptions gate = options;
   gate.cache.encoding = neural::FeatureEncoding::gate;
-  return std::any_of(option.needs.begin(), option.needs.end(), [&](const Requirement& r) {
+  return std::any_of(option.marks.needs.begin(), option.marks.needs.end(), [&](const Requirement& r) {
     return std::string_view(r.expected) == "`encoding` gate" && !r.met(options) && r.met(gate);
   });
 }
@@ -91,7 +91,7 @@ TEST(OptionTable, EachHasANameOfItsOwnAndAPlaceInTheHelp) {
     EXPECT_NE(option.help, "") << option.name;
     EXPECT_EQ(option.unit.find(' '), std::string::npos) << option.name;
     if (option.name == "spp" || option.name == "batch") {
-      EXPECT_EQ(option.of_cache, option.name == "batch");
+      EXPECT_EQ(option.marks.of_cache, option.name == "batch");
     }
   }
   for (const char* of_each_part : {"spp", "camera", "environment", "checkpoint", "integrator", "train-steps",

@@ -53,7 +53,7 @@ inline std::set<std::string> cache_names() {
   RenderSettings settings;
   std::set<std::string> names;
   for (const Option& option : option_table(settings)) {
-    if (option.of_cache) names.insert(option.name);
+    if (option.marks.of_cache) names.insert(option.name);
   }
   return names;
 }
