@@ -12,6 +12,7 @@
 
 #include "base/errors.h"
 #include "base/parallel/loops.h"
+#include "base/to_number.h"
 
 namespace gatelight::neural {
 
@@ -171,8 +172,19 @@ LayoutPlan solve_plan(PlanScene& scene) {
   if (found) return search.plan();
   if (options.budget_is_cap) return make_wanted();
   const LayoutPlan least = *make_plan(scene, density, std::numeric_limits<std::uint64_t>::max());
-  throw BadConfiguration({"cache-memory", fmt::format("{}", options.memory_budget), "bytes are too few",
-                          fmt::format("at least {}", least.node_count * node_bytes)});
+  throw BadConfiguration({"cache-memory", mebibytes_text(options.memory_budget), "MiB are too few",
+                          "at least " + mebibytes_text(least.node_count * node_bytes)});
+}
+
+std::string mebibytes_text(std::uint64_t bytes) {
+  constexpr double kMebibyte = 1048576.0;
+  constexpr int kMaxDecimals = 20;  // 2^-20 has as many
+  const auto wanted = static_cast<double>(bytes);
+  for (int decimals = 0;; ++decimals) {
+    const std::string text = fmt::format("{:.{}f}", wanted / kMebibyte, decimals);
+    const bool same = std::ceil(to_number<double>(text).value() * kMebibyte) == wanted;
+    if (same || decimals == kMaxDecimals) return text;
+  }
 }
 
 }  // namespace gatelight::neural

@@ -50,6 +50,8 @@ constexpr std::uint32_t adaptive_divisor(std::uint32_t level) {
 
 /// The name of a level: "adaptive", "adaptive/4" or "1".
 std::string level_text(std::uint32_t level);
+/// "adaptive,adaptive/4,1"
+std::string stack_text(const std::vector<std::uint32_t>& stack);
 
 struct GateOptions {
   std::uint32_t features = 8;                         ///< L: floats in a feature vector, 1 to 16

@@ -8,6 +8,7 @@
 
 #include "base/errors.h"
 #include "base/require.h"
+#include "neural/layout/budget.h"
 
 namespace gatelight::neural {
 
@@ -47,10 +48,9 @@ std::uint64_t fitting_table_size(const HashGridLayout& layout, const HashGridOpt
   const std::uint64_t entry_bytes = std::uint64_t{options.features} * options.bytes_per_feature;
   const std::uint64_t limit = std::min<std::uint64_t>(options.memory_target / entry_bytes, kMaxEntries);
   if (total_entries(layout, 8) > limit)
-    throw BadConfiguration(
-        {"cache-memory", "",
-         fmt::format("{} levels do not fit in {} bytes", layout.levels.size(), options.memory_target),
-         fmt::format("at least {}", total_entries(layout, 8) * entry_bytes)});
+    throw BadConfiguration({"cache-memory", mebibytes_text(options.memory_target),
+                            fmt::format("MiB do not hold {} levels", layout.levels.size()),
+                            "at least " + mebibytes_text(total_entries(layout, 8) * entry_bytes)});
   std::uint64_t fits = 1, too_many = (std::uint64_t{1} << 32) / 8;  // in multiples of 8
   while (too_many - fits > 1) {
     const std::uint64_t middle = (fits + too_many) / 2;

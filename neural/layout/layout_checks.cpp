@@ -117,4 +117,10 @@ std::string level_text(std::uint32_t level) {
   return divisor == 1 ? "adaptive" : fmt::format("adaptive/{}", divisor);
 }
 
+std::string stack_text(const std::vector<std::uint32_t>& stack) {
+  std::string text;
+  for (const std::uint32_t level : stack) text += (text.empty() ? "" : ",") + level_text(level);
+  return text;
+}
+
 }  // namespace gatelight::neural

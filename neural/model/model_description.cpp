@@ -73,11 +73,6 @@ std::string inputs_text(std::span<const AuxiliaryInput> inputs) {
   return joined(inputs, text);
 }
 
-/// "adaptive, adaptive/4, 1"
-std::string stack_text(std::span<const std::uint32_t> stack) {
-  return joined(stack, level_text);
-}
-
 class Digest {
  public:
   template <class T>
@@ -110,7 +105,7 @@ class Digest {
 void describe_gate(const Model& model, ordered_json& out) {
   const GateOptions& options = model.config.gate;
   out["storage"] = options.storage == NodeStorage::shared ? "shared" : "per_triangle";
-  out["stack"] = stack_text(options.stack);
+  out["stack"] = joined(options.stack, level_text);  // "adaptive, adaptive/4, 1"
   out["rule"] = name(options.rule);
   if (options.rule == ResolutionRule::uniform) out["node_spacing"] = number(model.gate.report.node_spacing);
   if (options.rule == ResolutionRule::paper)

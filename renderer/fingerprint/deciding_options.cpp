@@ -12,7 +12,7 @@
 #include "renderer/settings/enum_names.h"
 
 // Structured bindings name every member of the structs: a new member does not compile until it is decided
-// here whether it decides bits.
+// here, or beside its struct in renderer/settings, whether it decides bits.
 
 namespace gatelight::renderer {
 namespace {
@@ -61,6 +61,9 @@ class Texts {
   void add(const char* name, const Value& value) {
     texts_.push_back({name, text_of(value)});
   }
+  void add(const neural::GateOptions& options);
+  void add(const neural::HashGridOptions& options);
+  void add(const neural::TrainingOptions& options);
   /// `none` stands for no value.
   template <class Value>
   void add(const char* name, const std::optional<Value>& value, const char* none) {
@@ -72,110 +75,59 @@ class Texts {
   NamedTexts texts_;
 };
 
-void add_self_training(Texts& texts, const SelfTrainingOptions& options) {
-  const auto& [start_step, vertices, full_fraction, attenuation] = options;
-  texts.add("self-training", start_step);
-  texts.add("self-training-vertices", vertices);
-  texts.add("self-training-full", full_fraction);
-  texts.add("self-training-attenuation", attenuation);
-}
-
-void add_training(Texts& texts, const neural::TrainingOptions& options) {
+void Texts::add(const neural::TrainingOptions& options) {
   const auto& [loss, adam, update, feature_step, precision, average, start_at_mean, max_target,
                count_triangles, seed] = options;
   const auto& [learning_rate, beta1, beta2, epsilon, l2_network, decay_steps] = adam;
   const auto& [average_network, average_features, average_decay, average_ramp] = average;
-  texts.add("loss", loss);
-  texts.add("learning-rate", learning_rate);
-  texts.add("beta1", beta1);
-  texts.add("beta2", beta2);
-  texts.add("epsilon", epsilon);
-  texts.add("l2-network", l2_network);
-  texts.add("learning-decay", decay_steps);
-  texts.add("update", update);
-  texts.add("feature-step", feature_step);
-  texts.add("feature-precision", precision);
-  texts.add("average", average_network);
-  texts.add("average-features", average_features);
-  texts.add("average-decay", average_decay);
-  texts.add("average-ramp", average_ramp);
-  texts.add("start-at-mean", start_at_mean);
-  texts.add("max-target", max_target);
-  texts.add("count-triangles", count_triangles);
-  texts.add("training-seed", seed);
+  add("loss", loss);
+  add("learning-rate", learning_rate);
+  add("beta1", beta1);
+  add("beta2", beta2);
+  add("epsilon", epsilon);
+  add("l2-network", l2_network);
+  add("learning-decay", decay_steps);
+  add("update", update);
+  add("feature-step", feature_step);
+  add("feature-precision", precision);
+  add("average", average_network);
+  add("average-features", average_features);
+  add("average-decay", average_decay);
+  add("average-ramp", average_ramp);
+  add("start-at-mean", start_at_mean);
+  add("max-target", max_target);
+  add("count-triangles", count_triangles);
+  add("training-seed", seed);
 }
 
-void add_gate(Texts& texts, const neural::GateOptions& options) {
+void Texts::add(const neural::GateOptions& options) {
   const auto& [features, stack, rule, node_spacing, resolution_scale, fixed_resolution, max_resolution,
                storage, cluster, memory_budget, budget_is_cap, bytes_per_feature] = options;
-  std::vector<std::string> levels;
-  for (const std::uint32_t level : stack) levels.push_back(neural::level_text(level));
-  texts.add("features", features);
-  texts.add("stack", fmt::format("{}", fmt::join(levels, ",")));
-  texts.add("resolution", rule);
-  texts.add("gate-node-spacing", node_spacing);
-  texts.add("resolution-scale", resolution_scale);
-  texts.add("fixed-resolution", fixed_resolution);
-  texts.add("max-resolution", max_resolution);
-  texts.add("storage", storage);
-  texts.add("cluster", cluster);
-  texts.add("gate-memory", memory_budget);
-  texts.add("gate-memory-is-cap", budget_is_cap);
-  texts.add("gate-bytes", bytes_per_feature);
+  add("features", features);
+  add("stack", neural::stack_text(stack));
+  add("resolution", rule);
+  add("gate-node-spacing", node_spacing);
+  add("resolution-scale", resolution_scale);
+  add("fixed-resolution", fixed_resolution);
+  add("max-resolution", max_resolution);
+  add("storage", storage);
+  add("cluster", cluster);
+  add("gate-memory", memory_budget);
+  add("gate-memory-is-cap", budget_is_cap);
+  add("gate-bytes", bytes_per_feature);
 }
 
-void add_hash_grid(Texts& texts, const neural::HashGridOptions& options) {
+void Texts::add(const neural::HashGridOptions& options) {
   const auto& [levels, features, base_resolution, growth, log2_table_size, memory_target, bytes_per_feature,
                bounds_min, bounds_max] = options;
-  texts.add("hash-levels", levels);
-  texts.add("hash-features", features);
-  texts.add("hash-base", base_resolution);
-  texts.add("hash-growth", growth);
-  texts.add("hash-log2-size", log2_table_size);
-  texts.add("hash-memory", memory_target);
-  texts.add("hash-bytes", bytes_per_feature);
-  texts.add("hash-bounds", fmt::format("{},{}", fmt::join(bounds_min, ","), fmt::join(bounds_max, ",")));
-}
-
-/// The time of training and the file that is written decide no bits.
-void add_cache(Texts& texts, const CacheOptions& options) {
-  [[maybe_unused]] const auto& [train_steps, train_seconds, batch, path_length, samples_per_point, source,
-                                samples_from_step, candidates, self_training, node_spacing, encoding, gate,
-                                hash_grid, memory_bytes, mlp, training, direction_input, normal_input,
-                                albedo_input, scout, holds, query_at, view, min_roughness, spread_threshold,
-                                bf16_queries, device, cache_in, cache_out] = options;
-  texts.add("train-steps", train_steps, "auto");
-  texts.add("batch", batch);
-  texts.add("train-path-length", path_length);
-  texts.add("samples-per-point", samples_per_point);
-  texts.add("training-points", source);
-  texts.add("samples-from-step", samples_from_step);
-  texts.add("candidates", candidates);
-  add_self_training(texts, self_training);
-  texts.add("node-spacing", node_spacing, "auto");
-  texts.add("encoding", encoding);
-  if (encoding == neural::FeatureEncoding::gate) add_gate(texts, gate);
-  if (encoding == neural::FeatureEncoding::hash_grid) add_hash_grid(texts, hash_grid);
-  texts.add("cache-memory", memory_bytes);
-  const auto& [width, hidden_layers, outputs, leaky_slope, biases] = mlp;
-  texts.add("hidden", width);
-  texts.add("layers", hidden_layers);
-  texts.add("outputs", outputs);
-  texts.add("leaky-slope", leaky_slope);
-  texts.add("bias", biases);
-  add_training(texts, training);
-  texts.add("direction-input", direction_input, "auto");
-  texts.add("normal-input", normal_input, "auto");
-  texts.add("albedo-input", albedo_input, "auto");
-  texts.add("scout", scout);
-  texts.add("cache-holds", holds);
-  texts.add("query-at", query_at);
-  texts.add("view", view);
-  texts.add("cache-roughness", min_roughness);
-  texts.add("spread-threshold", spread_threshold);
-  texts.add("query-precision", bf16_queries);
-  texts.add("device", device);
-  texts.add("cache-in", cache_in.empty() ? "none" : cache_in);
+  add("hash-levels", levels);
+  add("hash-features", features);
+  add("hash-base", base_resolution);
+  add("hash-growth", growth);
+  add("hash-log2-size", log2_table_size);
+  add("hash-memory", memory_target);
+  add("hash-bytes", bytes_per_feature);
+  add("hash-bounds", fmt::format("{},{}", fmt::join(bounds_min, ","), fmt::join(bounds_max, ",")));
 }
 
 void add_background(Texts& texts, const BackgroundOptions& options) {
@@ -205,7 +157,7 @@ NamedTexts deciding_options(const RenderOptions& options, const View& view, cons
   texts.add("aov", fmt::format("{}", fmt::join(layers, ",")));
   texts.add("light-groups", options.light_groups.empty() ? "none" : text_of(options.light_groups));
   add_background(texts, options.background);
-  if (uses_cache(options.integrator)) add_cache(texts, options.cache);
+  if (uses_cache(options.integrator)) add_plain_members(texts, options.cache);
   NamedTexts all = texts.take();
   all.insert(all.end(), machine.begin(), machine.end());
   return all;

@@ -91,4 +91,51 @@ struct CacheOptions {
   std::string cache_out;
 };
 
+/// Adds the name and value of each member that decides bits, as add_plain_members() of RenderOptions does.
+/// The time of training and the file that is written decide none.
+template <class Texts>
+void add_plain_members(Texts& texts, const CacheOptions& options) {
+  [[maybe_unused]] const auto& [train_steps, train_seconds, batch, path_length, samples_per_point, source,
+                                samples_from_step, candidates, self_training, node_spacing, encoding, gate,
+                                hash_grid, memory_bytes, mlp, training, direction_input, normal_input,
+                                albedo_input, scout, component, query_at, view, min_roughness,
+                                spread_threshold, bf16_queries, device, cache_in, cache_out] = options;
+  const auto& [start_step, vertices, full_fraction, attenuation] = self_training;
+  const auto& [width, hidden_layers, outputs, leaky_slope, biases] = mlp;
+  texts.add("train-steps", train_steps, "auto");
+  texts.add("batch", batch);
+  texts.add("train-path-length", path_length);
+  texts.add("samples-per-point", samples_per_point);
+  texts.add("training-points", source);
+  texts.add("samples-from-step", samples_from_step);
+  texts.add("candidates", candidates);
+  texts.add("self-training", start_step);
+  texts.add("self-training-vertices", vertices);
+  texts.add("self-training-full", full_fraction);
+  texts.add("self-training-attenuation", attenuation);
+  texts.add("node-spacing", node_spacing, "auto");
+  texts.add("encoding", encoding);
+  if (encoding == neural::FeatureEncoding::gate) texts.add(gate);
+  if (encoding == neural::FeatureEncoding::hash_grid) texts.add(hash_grid);
+  texts.add("cache-memory", memory_bytes);
+  texts.add("hidden", width);
+  texts.add("layers", hidden_layers);
+  texts.add("outputs", outputs);
+  texts.add("leaky-slope", leaky_slope);
+  texts.add("bias", biases);
+  texts.add(training);
+  texts.add("direction-input", direction_input, "auto");
+  texts.add("normal-input", normal_input, "auto");
+  texts.add("albedo-input", albedo_input, "auto");
+  texts.add("scout", scout);
+  texts.add("cache-holds", component);
+  texts.add("query-at", query_at);
+  texts.add("view", view);
+  texts.add("cache-roughness", min_roughness);
+  texts.add("spread-threshold", spread_threshold);
+  texts.add("query-precision", bf16_queries);
+  texts.add("device", device);
+  texts.add("cache-in", cache_in.empty() ? "none" : cache_in);
+}
+
 }  // namespace gatelight::renderer
