@@ -170,15 +170,12 @@ std::vector<Option> option_table(CompareSettings& settings) {
       positional("TEST", settings.test, "Picture to be judged, .exr, .hdr or .png"),
       any_words("halves", settings.halves, "REF2 TEST2",
                 "Second halves of reference and test: also estimates the bias without noise"),
-      {.name = "frames",
-       .unit = "A:B[:STEP]",
-       .help =
-           "Frames of two sequences, REFERENCE and TEST with the place of their number: ref-%04d.exr, #### "
-           "or {frame}",
-       .value = [&settings]() -> OptionValue {
-         return settings.frames ? text_of(*settings.frames) : OptionValue();
-       },
-       .read = [&settings](const std::string& text) { settings.frames = parse_frames("frames", text); }},
+      read_by(
+          "frames", settings.frames, "A:B[:STEP]",
+          "Frames of two sequences, REFERENCE and TEST with the place of their number: ref-%04d.exr, #### "
+          "or {frame}",
+          [](const std::optional<FrameList>& frames) { return frames ? text_of(*frames) : OptionValue(); },
+          parse_frames),
       any_word(
           "metric", settings.metrics, "LIST",
           "Metrics, separated by commas: mse,rel_mse,psnr,mean,max,ssim,flip,hdr_flip,temporal (default: "

@@ -1,8 +1,8 @@
 #include "apps/compare_frames.h"
 
 #include <algorithm>
-#include <limits>
 #include <optional>
+#include <utility>
 
 #include "apps/measure_pair.h"
 #include "apps/reports/compare_frames_report.h"
@@ -19,16 +19,6 @@ using renderer::Picture;
 
 bool has(const std::vector<Metric>& metrics, Metric metric) {
   return std::find(metrics.begin(), metrics.end(), metric) != metrics.end();
-}
-
-/// Keeps the numbers, and not the errors of each pixel.
-ComparedFrame compared(int frame, const CompareReport& pair) {
-  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-  return {.number = frame,
-          .errors = pair.errors,
-          .ssim = pair.ssim.value_or(kNone),
-          .flip = pair.flip ? pair.flip->summary.mean : kNone,
-          .hdr_flip = pair.hdr_flip ? pair.hdr_flip->summary.mean : kNone};
 }
 
 }  // namespace
@@ -48,10 +38,10 @@ void check_frames(const CompareSettings& settings, const std::vector<Metric>& me
 }
 
 void compare_frames(const CompareSettings& settings, const std::vector<Metric>& metrics) {
-  CompareFramesReport report{.reference = settings.reference,
-                             .test = settings.test,
-                             .metrics = metrics,
-                             .flip_options = settings.flip};
+  CompareFramesReport report{.whole = {.references = {settings.reference},
+                                       .tests = {settings.test},
+                                       .metrics = metrics,
+                                       .flip_options = settings.flip}};
   renderer::TemporalMeter meter({.exposure = settings.flip.exposure, .tonemap = settings.flip.tonemap});
   Picture first;  // without its values
   std::string first_name;
@@ -71,10 +61,17 @@ void compare_frames(const CompareSettings& settings, const std::vector<Metric>& 
     measure_errors(pair, reference, test, false);
     measure_looks(pair, reference, test, !settings.metrics.empty());
     if (has(metrics, Metric::temporal)) meter.add(reference, test);
-    report.frames.push_back(compared(frame, pair));
+    for (std::optional<renderer::FlipResult>* flip : {&pair.flip, &pair.hdr_flip}) {
+      if (*flip) (*flip)->errors = {};
+    }
+    report.whole.errors.pixels += pair.errors.pixels;
+    report.whole.errors.nonfinite_reference += pair.errors.nonfinite_reference;
+    report.whole.errors.nonfinite_test += pair.errors.nonfinite_test;
+    report.numbers.push_back(frame);
+    report.frames.push_back(std::move(pair));
   }
-  report.width = first.width;
-  report.height = first.height;
+  report.whole.width = first.width;
+  report.whole.height = first.height;
   report.temporal = meter.deviation();
   if (!settings.json.empty()) write_text(settings.json, compare_frames_json(report));
   // With JSON on stdout nothing else is printed there, so that it can be parsed.

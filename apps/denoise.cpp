@@ -39,13 +39,12 @@ std::vector<Option> denoise_table(DenoiseSettings& settings) {
   output.add(progress_option(settings.progress));
   output.add(toggle("quiet", settings.quiet, "Print errors only"));
   OptionGroup input{table, "Layers of the input"};
-  input.add(
-      {.name = "frames",
-       .unit = "A:B[:STEP]",
-       .help = "Frames to denoise (default: all that there are)",
-       .value = [] { return OptionValue(); },
-       .read = [&settings](
-                   const std::string& text) { settings.frames = parse_frames("frames", text).numbers(); }});
+  input.add(read_by(
+      "frames", settings.frames, "A:B[:STEP]", "Frames to denoise (default: all that there are)",
+      [](const auto&) { return OptionValue(); },
+      [](const std::string& option, const std::string& text) {
+        return parse_frames(option, text).numbers();
+      }));
   const auto add_layer = [&](const char* name, std::string& member, const char* help) {
     input.add(any_word(name, member, "NAME", help));
   };

@@ -15,7 +15,7 @@
 #include "apps/job/finished_picture.h"
 #include "apps/job/frame_settings.h"
 #include "apps/job/sequence_exposure.h"
-#include "apps/reports/overflow_warning.h"
+#include "apps/reports/picture_warnings.h"
 #include "apps/reports/recipe.h"
 #include "apps/settings/file_names.h"
 #include "apps/settings/flags.h"
@@ -28,6 +28,7 @@
 #include "apps/terminal/log.h"
 #include "apps/terminal/signals.h"
 #include "apps/terminal/terminal.h"
+#include "apps/terminal/text.h"
 #include "apps/terminal/version.h"
 #include "base/clock.h"
 #include "base/platform/threads.h"
@@ -43,15 +44,6 @@ namespace {
 using nlohmann::ordered_json;
 using renderer::LayersToDenoise;
 
-/// Text of a recipe's value, in the syntax that the option reads.
-std::string text_of_value(const ordered_json& value) {
-  if (value.is_string()) return value.get<std::string>();
-  if (!value.is_array()) return value.dump();
-  std::string text;
-  for (const ordered_json& part : value) text += (text.empty() ? "" : ",") + part.dump();
-  return text;
-}
-
 /// Sets the options of finishing the picture from its recipe, where no flag sets them.
 void apply_recipe(const renderer::Picture& picture, const std::set<std::string>& given,
                   DenoiseSettings& settings) {
@@ -60,7 +52,7 @@ void apply_recipe(const renderer::Picture& picture, const std::set<std::string>&
   const auto read = [&](Option& option) {
     if (given.contains(option.name) || !recipe.contains(option.name)) return;
     try {
-      option.read(text_of_value(recipe[option.name]));
+      option.read(flag_text(recipe[option.name]));
     } catch (const BadOption& error) {
       throw InputError(fmt::format("the recipe of '{}': {}", settings.input, error.what()));
     }

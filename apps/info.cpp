@@ -10,6 +10,7 @@
 #include "apps/settings/file_names.h"
 #include "apps/settings/flags.h"
 #include "apps/settings/option_table.h"
+#include "apps/settings/picture_output.h"
 #include "apps/subcommand.h"
 #include "apps/terminal/errors.h"
 #include "apps/terminal/log.h"
@@ -127,10 +128,6 @@ Description describe_scene(const RenderSettings& settings) {
     description.json["cache"] = cache_report_json(cache, settings.render);
   }
   return description;
-}
-
-bool is_picture(const std::string& file) {
-  return renderer::image_format(file) != renderer::ImageFormat::unknown;
 }
 
 Description describe_picture(const std::string& file, bool command) {

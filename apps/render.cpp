@@ -6,7 +6,6 @@
 #include "apps/ranks/frame_groups.h"
 #include "apps/render/render_run.h"
 #include "apps/settings/complete_settings.h"
-#include "apps/settings/display_defaults.h"
 #include "apps/settings/flags.h"
 #include "apps/settings/option_table.h"
 #include "apps/subcommand.h"

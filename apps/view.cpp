@@ -1,24 +1,25 @@
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
-#include <algorithm>
-#include <array>
 #include <chrono>
+#include <cstdlib>
 #include <memory>
-#include <string_view>
 #include <thread>
 
 #include "apps/settings/flags.h"
 #include "apps/settings/option_table.h"
+#include "apps/settings/picture_output.h"
 #include "apps/subcommand.h"
 #include "apps/terminal/errors.h"
 #include "apps/terminal/log.h"
 #include "apps/terminal/signals.h"
 #include "apps/terminal/terminal.h"
-#include "apps/view/open_browser.h"
 #include "apps/view/picture_file.h"
 #include "apps/view/view_api.h"
 #include "apps/view/view_session.h"
-#include "renderer/image/image_format.h"
 
 namespace gatelight::apps {
 namespace {
@@ -37,13 +38,12 @@ Examples:
 
 constexpr auto kPoll = std::chrono::milliseconds(100);
 
-/// Flags of `render` that make no sense for a picture in a window.
-constexpr std::array<std::string_view, 24> kWithout = {
-    "output",    "stats",      "progress",         "reproducible", "quiet",
-    "verbose",   "checkpoint", "checkpoint-every", "resume",       "cache-in",
-    "cache-out", "time-limit", "max-error",        "frames",       "fps",
-    "turntable", "shutter",    "frame-groups",     "train-time",   "cryptomatte",
-    "region",    "view-file",  "temporal",         "skip-existing"};
+/// Whether a flag of `render` makes sense for a picture in a window. As in a sweep, files, frames and limits
+/// do not.
+bool is_of_window(const Option& option) {
+  if (option.name == "region" || option.name == "view-file") return false;
+  return option.marks.in_sweep || option.marks.stage == OptionStage::output || option.name == "aov";
+}
 
 struct WindowSettings {
   RenderSettings render;
@@ -53,9 +53,7 @@ struct WindowSettings {
 
 std::vector<Option> window_options(WindowSettings& window) {
   std::vector<Option> table = option_table(window.render);
-  std::erase_if(table, [](const Option& option) {
-    return std::find(kWithout.begin(), kWithout.end(), option.name) != kWithout.end();
-  });
+  std::erase_if(table, [](const Option& option) { return !is_of_window(option); });
   for (Option& option : table) {
     if (option.positional) option.help = "Scene (.gltf, .glb) or finished picture";
   }
@@ -65,10 +63,6 @@ std::vector<Option> window_options(WindowSettings& window) {
   group.add(toggle("no-browser", window.no_browser, "Print the address and open no browser"),
             {.common = true});
   return table;
-}
-
-bool is_picture(const std::string& file) {
-  return renderer::image_format(file) != renderer::ImageFormat::unknown;
 }
 
 /// The scene or the picture.
@@ -85,6 +79,21 @@ std::unique_ptr<PictureSource> open_source(const WindowSettings& window) {
   auto session = std::make_unique<ViewSession>(file, std::move(words));
   for (const std::string& warning : session->warnings()) log_warning(warning);
   return session;
+}
+
+/// Opens an address in the desktop's browser, where there are a desktop and `xdg-open`. Does not wait.
+void open_browser(const std::string& address) {
+  if (!std::getenv("DISPLAY") && !std::getenv("WAYLAND_DISPLAY")) return;
+  posix_spawn_file_actions_t files;
+  if (posix_spawn_file_actions_init(&files) != 0) return;
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    posix_spawn_file_actions_addopen(&files, stream, "/dev/null", O_RDWR, 0);
+  std::string program = "xdg-open", argument = address;
+  char* const words[] = {program.data(), argument.data(), nullptr};
+  pid_t child = 0;
+  if (posix_spawnp(&child, program.c_str(), &files, nullptr, words, environ) == 0)
+    std::thread([child] { waitpid(child, nullptr, 0); }).detach();
+  posix_spawn_file_actions_destroy(&files);
 }
 
 int run_view(const WindowSettings& window) {

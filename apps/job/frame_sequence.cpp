@@ -15,7 +15,7 @@ FrameSequence::FrameSequence(const RenderSettings& settings, const scene::Scene&
       show_time_(std::move(show_time)),
       ranks_(ranks),
       needs_exposure_(displayed && !settings.exposure),
-      sample_(sampled_frames(FrameList{{{0, last_frame_of_animation(settings, scene)}}}.numbers())),
+      sample_(sampled_frames(last_frame_of_animation(settings, scene))),
       renderer_(build(scene)) {
   shown_ = 0;
   choose_sky();

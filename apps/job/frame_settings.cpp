@@ -45,12 +45,18 @@ int last_frame_of_animation(const RenderSettings& settings, const scene::Scene& 
   return static_cast<int>(std::min(seconds * settings.frames.fps + kRounding, kMax));
 }
 
+std::vector<int> sampled_frames(int last) {
+  constexpr int kSteps = 7;
+  const int steps = std::min(last, kSteps);
+  std::vector<int> frames = {0};
+  for (int k = 1; k <= steps; ++k) frames.push_back(k * last / steps);
+  return frames;
+}
+
 std::vector<int> sampled_frames(const std::vector<int>& frames) {
-  constexpr std::size_t kSampled = 8;
-  const std::size_t moments = std::min(frames.size(), kSampled);
-  const std::size_t steps = std::max<std::size_t>(moments, 2) - 1;
   std::vector<int> sampled;
-  for (std::size_t k = 0; k < moments; ++k) sampled.push_back(frames[k * (frames.size() - 1) / steps]);
+  for (const int place : sampled_frames(static_cast<int>(frames.size()) - 1))
+    sampled.push_back(frames[static_cast<std::size_t>(place)]);
   return sampled;
 }
 

@@ -17,7 +17,10 @@ RenderSettings settings_of_frame(const RenderSettings& whole, int frame);
 /// the end of the animations which are shown; 0 where there are none.
 int last_frame_of_animation(const RenderSettings& settings, const scene::Scene& scene);
 
-/// Some of the frames, evenly spread: those that are scouted for a cache, or measured.
+/// Eight of the frames 0 to `last`, or all of fewer, evenly spread: those that are scouted for a cache, or
+/// measured.
+std::vector<int> sampled_frames(int last);
+/// The same of frames that are listed.
 std::vector<int> sampled_frames(const std::vector<int>& frames);
 
 /// The frames beside this one whose places the layers of motion need.

@@ -5,7 +5,7 @@
 #include <numeric>
 #include <utility>
 
-#include "apps/mpi/chunks.h"
+#include "apps/mpi/mpi_calls.h"
 
 namespace gatelight::apps {
 namespace {

@@ -33,7 +33,6 @@ class ErrorConsensus {
   std::optional<Verdict> take_verdict();
 
  private:
-
   std::vector<std::optional<RankError>> errors_;
   std::optional<Clock::time_point> decide_at_;
   bool taken_ = false;

@@ -51,13 +51,10 @@ double silence() {
 
 int run_ranks(int argc, char** argv) {
   MpiRanks ranks(&argc, &argv, make_callbacks(), silence());
-  RankGroup group{ranks,
-                  ranks.local_count(),
-                  {},
+  RankGroup group{ranks.all(), ranks.local_count(), ranks.hosts(),
                   [&](int part) -> renderer::Ranks& { return ranks.split(part); },
                   [&](int signal) { ranks.stop_others(signal); }};
-  for (int rank = 0; rank < ranks.count(); ++rank) group.hosts.push_back(ranks.host(rank));
-  set_silent(!ranks.first());
+  set_silent(!group.ranks.first());
   handle_failures([&](const Failure& failure) {
     ranks.fail(failure.code, failure.message + kSeparator + failure.advice);
   });

@@ -16,9 +16,21 @@ namespace gatelight::apps {
 namespace {
 
 constexpr double kLongestPause = 1000.0;  // microseconds
+constexpr std::size_t kChunk = std::size_t{512} << 20;
+constexpr int kTag = 0;
 
 std::atomic<int> waiting{0};
 std::atomic<int> abort_code{0};
+
+/// Calls begin(data, length, request) for each chunk.
+template <class Byte, class Begin>
+void each_chunk(std::span<Byte> bytes, Requests& requests, const Begin& begin) {
+  while (!bytes.empty()) {
+    const std::span<Byte> chunk = bytes.first(std::min(kChunk, bytes.size()));
+    begin(chunk.data(), static_cast<int>(chunk.size()), &requests.emplace_back(kNoRequest));
+    bytes = bytes.subspan(chunk.size());
+  }
+}
 
 }  // namespace
 
@@ -47,6 +59,24 @@ void wait_for(Requests& requests) {
     const std::lock_guard lock(mpi_mutex());
     if (all_done(requests)) return;
   }
+}
+
+void begin_send(MPI_Comm comm, int to, std::span<const std::byte> bytes, Requests& requests) {
+  each_chunk(bytes, requests, [&](const std::byte* data, int length, MPI_Request* request) {
+    check(MPI_Isend(data, length, kByte, to, kTag, comm, request), "MPI_Isend");
+  });
+}
+
+void begin_receive(MPI_Comm comm, int from, std::span<std::byte> bytes, Requests& requests) {
+  each_chunk(bytes, requests, [&](std::byte* data, int length, MPI_Request* request) {
+    check(MPI_Irecv(data, length, kByte, from, kTag, comm, request), "MPI_Irecv");
+  });
+}
+
+void begin_broadcast(MPI_Comm comm, std::span<std::byte> bytes, Requests& requests) {
+  each_chunk(bytes, requests, [&](std::byte* data, int length, MPI_Request* request) {
+    check(MPI_Ibcast(data, length, kByte, 0, comm, request), "MPI_Ibcast");
+  });
 }
 
 Pauses::Pauses() {

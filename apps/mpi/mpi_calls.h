@@ -43,6 +43,15 @@ bool all_done(Requests& requests);
 /// Waits for all requests. The caller does not hold the mutex.
 void wait_for(Requests& requests);
 
+// Messages of any length, in pieces: MPI's lengths are ints. The caller holds the mutex, and keeps the bytes
+// until the requests are done.
+/// Both sides know the length. Nothing is sent where it is 0.
+void begin_send(MPI_Comm comm, int to, std::span<const std::byte> bytes, Requests& requests);
+void begin_receive(MPI_Comm comm, int from, std::span<std::byte> bytes, Requests& requests);
+
+/// Broadcasts the bytes of rank 0.
+void begin_broadcast(MPI_Comm comm, std::span<std::byte> bytes, Requests& requests);
+
 /// Sleeps between the polls of a thread that waits: short at first, then longer.
 class Pauses {
  public:

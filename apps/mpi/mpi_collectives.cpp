@@ -6,7 +6,6 @@
 #include <mutex>
 #include <utility>
 
-#include "apps/mpi/chunks.h"
 #include "apps/mpi/mpi_calls.h"
 #include "base/clock.h"
 

@@ -4,14 +4,15 @@
 
 #include <algorithm>
 #include <chrono>
+#include <condition_variable>
 #include <cstdlib>
 #include <exception>
 #include <functional>
 #include <mutex>
 #include <optional>
+#include <thread>
 #include <utility>
 
-#include "apps/mpi/deadline.h"
 #include "apps/mpi/mpi_calls.h"
 #include "apps/mpi/mpi_collectives.h"
 #include "apps/mpi/mpi_world.h"
@@ -20,13 +21,32 @@
 namespace gatelight::apps {
 namespace {
 
-using renderer::Bytes;
-
 /// Time limit for the start of all ranks, as a multiple of the silence after which a rank is lost.
 constexpr double kStartTimes = 2.0;
 
 /// Time limit for all-gathers after an error: one that some ranks have not begun cannot end.
 constexpr std::chrono::seconds kAllGathersAfterError(2);
+
+/// A deadline for the MPI calls that wait for other ranks and cannot be polled: initialisation and
+/// finalisation. Calls `late` on another thread after `seconds`, unless the object is destroyed before.
+std::jthread deadline(double seconds, std::function<void()> late) {
+  return std::jthread([seconds, late = std::move(late)](const std::stop_token& over) {
+    std::mutex mutex;
+    std::condition_variable_any never;
+    std::unique_lock lock(mutex);
+    const std::chrono::duration<double> time(seconds);
+    if (!never.wait_for(lock, over, time, [&] { return over.stop_requested(); })) late();
+  });
+}
+
+/// Rank of this process in the launcher's environment variables, which exist before MPI is initialised; 0
+/// where there is none.
+int rank_of_launcher() {
+  for (const char* name : {"OMPI_COMM_WORLD_RANK", "PMI_RANK", "PMIX_RANK", "SLURM_PROCID"}) {
+    if (const char* const rank = std::getenv(name)) return std::atoi(rank);
+  }
+  return 0;
+}
 
 /// Returns a function that ends this process where other ranks do not answer; the launcher then ends those.
 /// Other ranks wait longer than rank 0 (start_timeout()), so that rank 0 prints the line.
@@ -65,7 +85,7 @@ struct MpiRanks::Connection {
 MpiRanks::MpiRanks(int* argc, char*** argv, Callbacks callbacks, double silence_seconds) {
   const double start_seconds = start_timeout(kStartTimes * silence_seconds);
   {
-    const Deadline deadline(
+    const std::jthread started = deadline(
         start_seconds,
         give_up(callbacks, fmt::format("not all ranks have started within {:.0f} s", start_seconds)));
     connection_ = std::make_unique<Connection>(argc, argv);
@@ -73,7 +93,7 @@ MpiRanks::MpiRanks(int* argc, char*** argv, Callbacks callbacks, double silence_
   Connection& mpi = *connection_;
   mpi.callbacks = std::move(callbacks);
   mpi.silence = silence_seconds;
-  if (count() > 1)
+  if (mpi.world.count > 1)
     mpi.progress_thread.emplace(mpi.world, mpi.all.all_gathers(), mpi.callbacks, silence_seconds);
 }
 
@@ -91,36 +111,16 @@ MpiRanks::~MpiRanks() {
   }
 }
 
-int MpiRanks::rank() const {
-  return connection_->world.rank;
-}
-
-int MpiRanks::count() const {
-  return connection_->world.count;
+renderer::Ranks& MpiRanks::all() {
+  return connection_->all;
 }
 
 int MpiRanks::local_count() const {
   return connection_->world.local_count;
 }
 
-const std::string& MpiRanks::host(int rank) const {
-  return connection_->world.hosts.at(static_cast<std::size_t>(rank));
-}
-
-std::vector<Bytes> MpiRanks::exchange(std::vector<Bytes> outgoing) {
-  return connection_->all.exchange(std::move(outgoing));
-}
-
-void MpiRanks::broadcast(Bytes& bytes) {
-  connection_->all.broadcast(bytes);
-}
-
-std::unique_ptr<renderer::Ranks::AllGather> MpiRanks::begin_gather(Bytes mine) {
-  return connection_->all.begin_gather(std::move(mine));
-}
-
-renderer::Ranks::Traffic MpiRanks::traffic() const {
-  return connection_->all.traffic();
+const std::vector<std::string>& MpiRanks::hosts() const {
+  return connection_->world.hosts;
 }
 
 renderer::Ranks& MpiRanks::split(int group) {
@@ -162,7 +162,7 @@ void MpiRanks::end() {
   }
   mpi.ended = true;
   const double seconds = start_timeout(mpi.silence);
-  const Deadline deadline(
+  const std::jthread finished = deadline(
       seconds, give_up(mpi.callbacks,
                        fmt::format("all is done, but some rank does not end within {:.0f} s", seconds)));
   if (mpi.progress_thread) mpi.progress_thread->stop();

@@ -11,7 +11,7 @@
 namespace gatelight::apps {
 
 /// At most one object at a time in a process. A process that mpirun has not started is the only rank.
-class MpiRanks final : public renderer::Ranks {
+class MpiRanks {
  public:
   using Callbacks = RankCallbacks;
 
@@ -19,19 +19,13 @@ class MpiRanks final : public renderer::Ranks {
   /// is lost, which ends the run.
   MpiRanks(int* argc, char*** argv, Callbacks callbacks, double silence_seconds = 20.0);
   /// Calls end(). Ends all ranks where an exception is in flight or end() fails.
-  ~MpiRanks() override;
+  ~MpiRanks();
   MpiRanks(const MpiRanks&) = delete;
   MpiRanks& operator=(const MpiRanks&) = delete;
 
-  int rank() const override;
-  int count() const override;
+  renderer::Ranks& all();
   int local_count() const;  ///< ranks of this machine
-  const std::string& host(int rank) const;
-
-  std::vector<renderer::Bytes> exchange(std::vector<renderer::Bytes> outgoing) override;
-  void broadcast(renderer::Bytes& bytes) override;
-  std::unique_ptr<AllGather> begin_gather(renderer::Bytes mine) override;
-  Traffic traffic() const override;
+  const std::vector<std::string>& hosts() const;
 
   /// The ranks that name the same group. This object owns them. All ranks call it at about the same time.
   renderer::Ranks& split(int group);

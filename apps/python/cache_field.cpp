@@ -12,6 +12,8 @@
 #include "base/random.h"
 #include "neural/model/model_file.h"
 #include "renderer/cache/cache_backend.h"
+#include "renderer/cache/cache_model.h"
+#include "renderer/cache/scene_layout.h"
 
 namespace gatelight::python {
 namespace {
@@ -47,55 +49,20 @@ std::string digest_of_triangles(const scene::Scene& scene) {
   return hexadecimal(record.digest());
 }
 
-/// Meshes with one vertex for each position, and the surfaces with spans into them.
-struct Surfaces {
-  std::vector<std::vector<neural::Float3>> positions;
-  std::vector<std::vector<std::array<std::uint32_t, 3>>> triangles;
-  neural::SurfaceLayout layout;
-
-  explicit Surfaces(const scene::Scene& scene) {
-    for (const scene::Mesh& mesh : scene.meshes) {
-      std::vector<neural::Float3>& points = positions.emplace_back();
-      for (const Vec3& p : mesh.positions) points.push_back({p.x(), p.y(), p.z()});
-      const std::vector<std::uint32_t> welded = neural::weld_vertices(points);
-      auto& corners = triangles.emplace_back();
-      for (const auto& t : mesh.triangles) corners.push_back({welded[t[0]], welded[t[1]], welded[t[2]]});
-    }
-    for (std::size_t i = 0; i < positions.size(); ++i) layout.meshes.push_back({positions[i], triangles[i]});
-    for (const scene::Instance& instance : scene.instances) {
-      neural::SurfaceInstance& surface = layout.instances.emplace_back();
-      surface.mesh = static_cast<std::uint32_t>(instance.mesh);
-      const Eigen::Matrix<float, 3, 4> matrix = instance.transform.matrix().topRows<3>();
-      Eigen::Map<Eigen::Matrix<float, 3, 4>>(surface.object_to_world.data()) = matrix;
-    }
-  }
-};
-
 std::shared_ptr<const neural::Model> model_of(const scene::Scene& scene, std::uint32_t outputs,
                                               const renderer::CacheOptions& options) {
-  neural::ModelConfig config;
-  config.encoding = options.encoding;
-  config.gate = options.gate;
-  config.hash_grid = options.hash_grid;
-  config.mlp = options.mlp;
-  config.mlp.outputs = outputs;
-  const std::uint32_t bytes = options.training.precision == neural::FeaturePrecision::fp32 ? 4 : 2;
-  config.gate.bytes_per_feature = config.hash_grid.bytes_per_feature = bytes;
-  if (options.node_spacing) config.gate.node_spacing = *options.node_spacing;
-  const bool open = !options.node_spacing && config.gate.rule == neural::ResolutionRule::uniform;
-  config.gate.memory_budget = options.memory_bytes > 0 ? options.memory_bytes : open ? kChosenBytes : 0;
-  config.hash_grid.memory_target = options.memory_bytes;
   Box bounds;
   for (const scene::Instance& instance : scene.instances)
     for (const Vec3& p : scene.mesh_of(instance).positions) bounds.extend(instance.transform * p);
-  for (int axis = 0; axis < 3; ++axis) {
-    config.hash_grid.bounds_min[static_cast<std::size_t>(axis)] = bounds.min()[axis];
-    config.hash_grid.bounds_max[static_cast<std::size_t>(axis)] = bounds.max()[axis];
-  }
+  neural::ModelConfig config = renderer::model_config(options, bounds);
+  config.mlp.outputs = outputs;
+  const bool open = !options.node_spacing && config.gate.rule == neural::ResolutionRule::uniform;
+  if (open && options.memory_bytes == 0) config.gate.memory_budget = kChosenBytes;
   config.auxiliary =
       neural::composite_inputs({.direction = false, .normal = options.normal_input.value_or(false)});
-  const Surfaces surfaces(scene);
-  return neural::make_model(config, surfaces.layout);
+  const renderer::WeldedMeshes meshes(scene);
+  const std::vector<neural::Sides> sides(scene.instances.size(), neural::SurfaceInstance().sides);
+  return neural::make_model(config, meshes.layout(scene, sides));
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "apps/python/errors.h"
+#include "apps/python/module.h"
 
 #include <algorithm>
 #include <exception>

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "apps/job/frame_settings.h"
+#include "apps/python/keywords.h"
 #include "apps/python/running.h"
 #include "base/clock.h"
 #include "base/errors.h"
@@ -19,10 +20,9 @@ Frames::Frames(ScenePointer scene, const py::dict& keywords, py::object progress
       settings_(settings_for(*scene_, keywords)),
       progress_(std::move(progress)),
       stop_(std::move(stop)) {
-  for (const char* option : {"checkpoint", "resume", "cache-in", "cache-out"}) {
-    if (settings_.given.contains(option))
-      throw BadOption({option, "", "frames have none here", "it in `gatelight render`"});
-  }
+  require_given(
+      settings_, [](const apps::Option& option) { return option.group != "Files"; }, "frames have none here",
+      "it in `gatelight render`");
   if (!settings_.frames.range) throw BadOption({"frames", "", "it is missing", "frames or turntable"});
   if (scene_->file && !scene_->loading.load.time && settings_.frames.turntable == 0)
     throw BadOption({"frames", "", "the scene was loaded without a time", "gatelight.load(path, time=0)"});

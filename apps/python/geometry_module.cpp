@@ -6,8 +6,8 @@
 
 #include "apps/python/arrays.h"
 #include "apps/python/conversions.h"
+#include "apps/python/fields.h"
 #include "apps/python/module.h"
-#include "apps/python/scene_parts.h"
 #include "base/errors.h"
 #include "scene/mesh_arrays.h"
 
@@ -170,29 +170,27 @@ void add_mesh_class(py::module_& module) {
       });
 }
 
+const std::vector<Field<scene::Instance>>& instance_fields() {
+  using I = scene::Instance;
+  static const std::vector<Field<I>> fields = {
+      {"transform", [](const I& i) { return matrix_of(i.transform); },
+       [](I& i, py::handle matrix) { place(i, transform("transform", matrix)); },
+       "(4, 4) float32, mesh to world, for column vectors; a copy"},
+      {"dielectric_priority", &I::dielectric_priority, apps::kAnyFloat, ""},
+  };
+  return fields;
+}
+
 void add_instance_class(py::module_& module) {
   py::class_<InstancePart> instance(module, "Instance", "A mesh in the world.");
   instance.def("__repr__", [](const InstancePart& part) {
     return fmt::format("<gatelight.Instance '{}'>", get(part).name);
   });
-  instance.def_property_readonly("index", [](const InstancePart& part) { return part.index; });
   instance.def_property_readonly("name", [](const InstancePart& part) { return get(part).name; });
   instance.def_property_readonly("mesh", [](const InstancePart& part) {
     return MeshPart{{part.scene, static_cast<std::size_t>(get(part).mesh)}};
   });
-  instance.def_property(
-      "transform", [](const InstancePart& part) { return matrix_of(get(part).transform); },
-      [](const InstancePart& part, const py::object& matrix) {
-        place(get(part), transform("transform", matrix));
-        part.scene->change();
-      },
-      "(4, 4) float32, mesh to world, for column vectors; a copy");
-  instance.def_property(
-      "dielectric_priority", [](const InstancePart& part) { return get(part).dielectric_priority; },
-      [](const InstancePart& part, const py::object& value) {
-        get(part).dielectric_priority = number("dielectric_priority", value, apps::kAnyFloat);
-        part.scene->change();
-      });
+  add_fields(instance, instance_fields(), &scene::Scene::instances);
 }
 
 }  // namespace

@@ -2,84 +2,33 @@
 #include <pybind11/stl.h>
 
 #include "apps/python/conversions.h"
-#include "apps/python/keywords.h"
-#include "apps/python/material_fields.h"
+#include "apps/python/fields.h"
 #include "apps/python/module.h"
-#include "apps/python/scene_parts.h"
-#include "base/errors.h"
-#include "base/nearest_word.h"
 
 namespace gatelight::python {
 namespace {
 
 namespace py = pybind11;
 using scene::Material;
-using scene::TextureSlot;
 
 constexpr apps::RealRange kUnit{0.0, 1.0};
 constexpr apps::RealRange kAtLeastZero{0.0, 3.4e38};
 constexpr apps::RealRange kDistance{.min = 0.0, .max = 3.4e38, .excludes_min = true, .infinity = true};
-constexpr renderer::Choice<scene::AlphaMode> kAlphaModes[] = {{"opaque", scene::AlphaMode::opaque},
-                                                              {"mask", scene::AlphaMode::mask},
-                                                              {"blend", scene::AlphaMode::blend}};
-
-struct Getter {
-  const ScenePointer& scene;
-  const Material& material;
-
-  py::object operator()(float Material::*member) const { return py::float_(material.*member); }
-  py::object operator()(Color Material::*member) const { return tuple_of(material.*member); }
-  py::object operator()(bool Material::*member) const { return py::bool_(material.*member); }
-  py::object operator()(std::string Material::*member) const { return py::str(material.*member); }
-  py::object operator()(scene::AlphaMode Material::*member) const {
-    return py::str(std::string(renderer::name_of(kAlphaModes, material.*member)));
-  }
-  py::object operator()(TextureSlot Material::*member) const {
-    const TextureSlot& slot = material.*member;
-    if (!slot) return py::none();
-    return py::cast(TexturePart{{scene, static_cast<std::size_t>(slot.texture)}});
-  }
-};
-
-struct Setter {
-  const MaterialField& field;
-  const ScenePointer& scene;
-  Material& material;
-  py::handle value;
-
-  void operator()(float Material::*member) const {
-    material.*member = number(field.name, value, field.range);
-  }
-  void operator()(Color Material::*member) const { material.*member = color(field.name, value, field.range); }
-  void operator()(bool Material::*member) const {
-    if (!py::isinstance<py::bool_>(value))
-      throw BadOption({field.name, text_of(field.name, value), "", "True or False"});
-    material.*member = value.cast<bool>();
-  }
-  void operator()(std::string Material::*member) const { material.*member = text_of(field.name, value); }
-  void operator()(scene::AlphaMode Material::*member) const {
-    material.*member = apps::parse_choice(field.name, text_of(field.name, value), kAlphaModes);
-  }
-  void operator()(TextureSlot Material::*member) const {
-    if (value.is_none()) {
-      material.*member = {};
-      return;
-    }
-    if (!py::isinstance<TexturePart>(value) || value.cast<TexturePart>().scene != scene)
-      throw BadOption({field.name, "", "it is no texture of this scene", "one of scene.add_texture or None"});
-    material.*member = {.texture = static_cast<int>(value.cast<TexturePart>().index)};
-  }
-};
 
 Material& get(const MaterialPart& part) {
   return part.scene->source.materials[part.index];
 }
 
-}  // namespace
+/// Which index of refraction is allowed depends on no range: 0 is one, and others begin at 1.
+void set_ior(Material& material, py::handle value) {
+  const float ior = number("ior", value, kAtLeastZero);
+  if (ior != 0.0f && ior < 1.0f) throw BadOption({"ior", "", "it is below 1", "0 or a number of at least 1"});
+  material.ior = ior;
+}
 
-const std::vector<MaterialField>& material_fields() {
+const std::vector<Field<Material>>& material_fields() {
   using M = Material;
-  static const std::vector<MaterialField> fields = {
+  static const std::vector<Field<Material>> fields = {
       {"name", &M::name, {}, "Name, for lights, light_groups and cryptomatte"},
       {"base_color", &M::base_color, kUnit, "Linear RGB"},
       {"base_alpha", &M::base_alpha, kUnit, "Opacity, for alpha_mode mask and blend"},
@@ -95,7 +44,8 @@ const std::vector<MaterialField>& material_fields() {
       {"alpha_cutoff", &M::alpha_cutoff, kAtLeastZero, "Least opacity that is seen, for mask"},
       {"double_sided", &M::double_sided, {}, "Both sides reflect and emit"},
       {"unlit", &M::unlit, {}, "Shows base_color as radiance"},
-      {"ior", &M::ior, kAtLeastZero, "Index of refraction, from 1"},
+      {"ior", [](const M& m) -> py::object { return py::float_(m.ior); }, set_ior,
+       "Index of refraction, from 1"},
       {"specular", &M::specular, kUnit, "Strength of the dielectric reflection"},
       {"specular_texture", &M::specular_texture, {}, "A; multiplies specular"},
       {"specular_color", &M::specular_color, kAtLeastZero, "Of the dielectric reflection"},
@@ -135,30 +85,11 @@ const std::vector<MaterialField>& material_fields() {
   return fields;
 }
 
-py::object get_field(const MaterialField& field, const ScenePointer& scene, const Material& material) {
-  return std::visit(Getter{scene, material}, field.member);
-}
-
-void set_field(const MaterialField& field, const ScenePointer& scene, Material& material, py::handle value) {
-  std::visit(Setter{field, scene, material, value}, field.member);
-  if (material.ior != 0.0f && material.ior < 1.0f) {
-    material.ior = 1.0f;
-    throw BadOption({"ior", "", "it is below 1", "0 or a number of at least 1"});
-  }
-}
+}  // namespace
 
 MaterialPart make_material(const ScenePointer& scene, const py::kwargs& keywords) {
   Material material;
-  std::vector<std::string> names;
-  for (const MaterialField& field : material_fields()) names.emplace_back(field.name);
-  for (const auto& [key, value] : keywords) {
-    const auto name = key.cast<std::string>();
-    const auto found = std::find(names.begin(), names.end(), name);
-    if (found == names.end())
-      throw BadOption({name, "", "a material has no such member", "one of gatelight.Material",
-                       did_you_mean(name, names)});
-    set_field(material_fields()[static_cast<std::size_t>(found - names.begin())], scene, material, value);
-  }
+  set_members(material_fields(), "Material", scene, material, keywords);
   scene->source.materials.push_back(std::move(material));
   scene->change();
   return {{scene, scene->source.materials.size() - 1}};
@@ -171,19 +102,10 @@ void add_materials(py::module_& module) {
   py::class_<MaterialPart> material(
       module, "Material",
       "A material of a scene, in the terms of glTF 2.0. A new value counts from the next render.");
-  material.def_property_readonly("index", [](const MaterialPart& part) { return part.index; });
   material.def("__repr__", [](const MaterialPart& part) {
     return fmt::format("<gatelight.Material {} '{}'>", part.index, get(part).name);
   });
-  for (const MaterialField& field : material_fields()) {
-    material.def_property(
-        field.name, [&field](const MaterialPart& part) { return get_field(field, part.scene, get(part)); },
-        [&field](const MaterialPart& part, const py::object& value) {
-          set_field(field, part.scene, get(part), value);
-          part.scene->change();
-        },
-        field.help);
-  }
+  add_fields(material, material_fields(), &scene::Scene::materials);
 }
 
 }  // namespace gatelight::python

@@ -1,6 +1,5 @@
 #include "apps/python/module.h"
 
-#include "apps/python/errors.h"
 #include "apps/python/keywords.h"
 #include "apps/terminal/version.h"
 

@@ -5,6 +5,8 @@
 
 namespace gatelight::python {
 
+/// Adds gatelight.Error, and makes it of every exception of ours that a function of the module throws.
+void add_error(pybind11::module_& module);
 void add_materials(pybind11::module_& module);
 void add_scene(pybind11::module_& module);
 void add_picture(pybind11::module_& module);

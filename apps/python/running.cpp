@@ -8,7 +8,6 @@
 #include "apps/python/keywords.h"
 #include "apps/python/waiting.h"
 #include "apps/settings/complete_settings.h"
-#include "apps/settings/display_defaults.h"
 #include "apps/terminal/terminal.h"
 #include "apps/terminal/text.h"
 #include "base/clock.h"

@@ -5,6 +5,7 @@
 #include <thread>
 #include <utility>
 
+#include "apps/terminal/progress.h"
 #include "base/platform/flush_denormals.h"
 
 namespace gatelight::python {
@@ -15,23 +16,9 @@ namespace py = pybind11;
 /// How long a signal may wait.
 constexpr std::chrono::milliseconds kBetween{50};
 
-const char* word_of(renderer::Phase phase) {
-  switch (phase) {
-    case renderer::Phase::scout:
-      return "scout";
-    case renderer::Phase::train:
-      return "train";
-    case renderer::Phase::denoise:
-      return "denoise";
-    case renderer::Phase::render:
-      break;
-  }
-  return "render";
-}
-
 py::dict dictionary_of(const renderer::Progress& progress) {
   py::dict values;
-  values["phase"] = word_of(progress.phase);
+  values["phase"] = apps::word_of(progress.phase);
   values["fraction"] = progress.fraction;
   values["seconds"] = progress.seconds;
   values["spp_done"] = progress.spp_done;

@@ -6,9 +6,11 @@
 #include <array>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <thread>
 
 #include "apps/reports/recipe.h"
+#include "apps/settings/option_table.h"
 #include "apps/terminal/errors.h"
 #include "apps/terminal/text.h"
 #include "apps/terminal/version.h"
@@ -26,18 +28,16 @@ namespace {
 
 using renderer::Bytes;
 
-/// Options that may differ between ranks, because they do not change the picture.
-constexpr const char* kOwnOptions[] = {"threads", "memory-limit", "oidn"};
-
 /// Version, options and digests of the inputs, one name and value per line.
 std::string identity(const RenderSettings& settings, const scene::Scene& scene) {
   std::string text = fmt::format("version: {}\n", version());
   RenderSettings reproducible = settings;
   reproducible.reproducible = false;
   const nlohmann::ordered_json options = resolved_options(reproducible);
+  const std::set<std::string> of_machine =
+      option_names([](const Option& option) { return option.marks.in_recipe == InRecipe::of_machine; });
   for (const auto& [name, value] : options.items()) {
-    if (std::find(std::begin(kOwnOptions), std::end(kOwnOptions), name) != std::end(kOwnOptions)) continue;
-    text += fmt::format("--{}: {}\n", name, json_text(value, -1));
+    if (!of_machine.contains(name)) text += fmt::format("--{}: {}\n", name, json_text(value, -1));
   }
   for (const auto& [name, digest] : renderer::compute_scene_fingerprint(scene, settings.render.environment))
     text += fmt::format("{} of '{}': {}\n", name, settings.scene, digest);

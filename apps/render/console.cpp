@@ -4,24 +4,17 @@
 
 #include <nlohmann/json.hpp>
 
+#include "apps/settings/complete_settings.h"
 #include "apps/terminal/errors.h"
 #include "apps/terminal/log.h"
 #include "apps/terminal/terminal.h"
 #include "apps/terminal/text.h"
 
 namespace gatelight::apps {
-namespace {
-
-double count_pixels(const renderer::RenderOptions& options) {
-  if (!options.region) return static_cast<double>(options.width) * options.height;
-  const auto [x0, y0, x1, y1] = *options.region;
-  return static_cast<double>(x1 - x0) * (y1 - y0);
-}
-
-}  // namespace
 
 Console::Console(const RenderSettings& settings, bool speaks)
-    : progress(settings.quiet ? ProgressMode::none : settings.progress, count_pixels(settings.render)),
+    : progress(settings.quiet ? ProgressMode::none : settings.progress,
+               static_cast<double>(count_pixels(settings.render))),
       quiet_(settings.quiet),
       speaks_(speaks),
       json_(settings.progress == ProgressMode::json) {}

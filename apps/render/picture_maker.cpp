@@ -7,8 +7,7 @@
 #include <utility>
 
 #include "apps/job/finished_picture.h"
-#include "apps/reports/glare_warning.h"
-#include "apps/reports/overflow_warning.h"
+#include "apps/reports/picture_warnings.h"
 #include "apps/settings/picture_output.h"
 #include "apps/settings/unused_flags.h"
 #include "apps/terminal/errors.h"

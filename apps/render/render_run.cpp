@@ -5,7 +5,7 @@
 #include "apps/ranks/rank_checks.h"
 #include "apps/render/frames.h"
 #include "apps/render/stills.h"
-#include "apps/reports/glare_warning.h"
+#include "apps/reports/picture_warnings.h"
 #include "apps/reports/recipe.h"
 #include "apps/settings/unused_flags.h"
 #include "apps/terminal/log.h"

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <numeric>
 
@@ -15,6 +16,9 @@ namespace gatelight::apps {
 namespace {
 
 using nlohmann::ordered_json;
+
+/// Of a metric that was not requested, or of SSIM where the picture is smaller than its window.
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 /// One number of each frame.
 struct Series {
@@ -31,17 +35,22 @@ std::vector<Series> series_of(const CompareFramesReport& report) {
   std::vector<Series> all;
   const auto add = [&](Metric metric, const char* key, const auto& value_of) {
     Series& series = all.emplace_back(Series{metric, key, {}});
-    for (const ComparedFrame& frame : report.frames) series.values.push_back(value_of(frame));
+    for (const CompareReport& frame : report.frames) series.values.push_back(value_of(frame));
   };
-  for (const Metric metric : report.metrics) {
+  const auto mean = [](const std::optional<renderer::FlipResult>& flip) {
+    return flip ? flip->summary.mean : kNone;
+  };
+  for (const Metric metric : report.whole.metrics) {
     for (const ErrorValue& value : kErrorValues) {
       if (value.metric == metric)
-        add(metric, value.key, [&](const ComparedFrame& frame) { return frame.errors.*value.member; });
+        add(metric, value.key, [&](const CompareReport& frame) { return frame.errors.*value.member; });
     }
-    if (metric == Metric::ssim) add(metric, "ssim", [](const ComparedFrame& frame) { return frame.ssim; });
-    if (metric == Metric::flip) add(metric, "flip", [](const ComparedFrame& frame) { return frame.flip; });
+    if (metric == Metric::ssim)
+      add(metric, "ssim", [](const CompareReport& frame) { return frame.ssim.value_or(kNone); });
+    if (metric == Metric::flip)
+      add(metric, "flip", [&](const CompareReport& frame) { return mean(frame.flip); });
     if (metric == Metric::hdr_flip)
-      add(metric, "hdr_flip", [](const ComparedFrame& frame) { return frame.hdr_flip; });
+      add(metric, "hdr_flip", [&](const CompareReport& frame) { return mean(frame.hdr_flip); });
   }
   return all;
 }
@@ -52,10 +61,10 @@ ordered_json mean_json(const CompareFramesReport& report, const Series& series) 
   if (!is_flip && series.metric != Metric::ssim) return json_number(mean);
   if (std::isnan(mean)) return nullptr;
   ordered_json json = {{"mean", mean}};
-  if (is_flip) json["pixels_per_degree"] = report.flip_options.pixels_per_degree;
+  if (is_flip) json["pixels_per_degree"] = report.whole.flip_options.pixels_per_degree;
   if (series.metric != Metric::hdr_flip) {
-    json["exposure"] = report.flip_options.exposure;
-    json["tonemap"] = enum_name(report.flip_options.tonemap);
+    json["exposure"] = report.whole.flip_options.exposure;
+    json["tonemap"] = enum_name(report.whole.flip_options.tonemap);
   }
   return json;
 }
@@ -63,7 +72,7 @@ ordered_json mean_json(const CompareFramesReport& report, const Series& series) 
 ordered_json frames_json(const CompareFramesReport& report, const std::vector<Series>& all) {
   ordered_json frames = ordered_json::array();
   for (std::size_t i = 0; i < report.frames.size(); ++i) {
-    ordered_json frame = {{"frame", report.frames[i].number}};
+    ordered_json frame = {{"frame", report.numbers[i]}};
     for (const Series& series : all) frame[series.key] = json_number(series.values[i]);
     frames.push_back(std::move(frame));
   }
@@ -78,7 +87,7 @@ std::string series_text(const CompareFramesReport& report, const Series& series)
   if (series.metric == Metric::rel_mse || series.metric == Metric::flip) {
     const auto [low, high] = std::minmax_element(series.values.begin(), series.values.end());
     const auto frame = [&](auto place) {
-      return report.frames[static_cast<std::size_t>(place - series.values.begin())].number;
+      return report.numbers[static_cast<std::size_t>(place - series.values.begin())];
     };
     text +=
         fmt::format(", from {:.6g} (frame {}) to {:.6g} (frame {})", *low, frame(low), *high, frame(high));
@@ -89,20 +98,7 @@ std::string series_text(const CompareFramesReport& report, const Series& series)
 }  // namespace
 
 std::string compare_frames_json(const CompareFramesReport& report) {
-  renderer::ErrorMetrics counts;
-  for (const ComparedFrame& frame : report.frames) {
-    counts.pixels += frame.errors.pixels;
-    counts.nonfinite_reference += frame.errors.nonfinite_reference;
-    counts.nonfinite_test += frame.errors.nonfinite_test;
-  }
-  ordered_json json = {
-      {"schema", 1},
-      {"reference", report.reference},
-      {"test", report.test},
-      {"width", report.width},
-      {"height", report.height},
-      {"pixels", counts.pixels},
-      {"nonfinite", {{"reference", counts.nonfinite_reference}, {"test", counts.nonfinite_test}}}};
+  ordered_json json = head_json(report.whole);
   const std::vector<Series> all = series_of(report);
   for (const Series& series : all) {
     json[series.key] = mean_json(report, series);

@@ -10,23 +10,11 @@
 
 namespace gatelight::apps {
 
-/// The results of one frame. NaN: not requested, or the picture is smaller than the window of SSIM.
-struct ComparedFrame {
-  int number = 0;
-  renderer::ErrorMetrics errors;
-  double ssim = 0.0;
-  double flip = 0.0;  ///< mean over the pixels, as hdr_flip is
-  double hdr_flip = 0.0;
-};
-
 struct CompareFramesReport {
-  std::string reference;  ///< the names with the place of a frame's number
-  std::string test;
-  int width = 0;
-  int height = 0;
-  std::vector<Metric> metrics;  ///< requested, in the order of the report
-  renderer::FlipOptions flip_options;
-  std::vector<ComparedFrame> frames;                    ///< at least one, in the order of comparison
+  /// Names with the place of a frame's number, sums of pixels, and what the frames share.
+  CompareReport whole;
+  std::vector<int> numbers;           ///< of the frames, in the order of comparison; at least one
+  std::vector<CompareReport> frames;  ///< without the errors of each pixel
   std::optional<renderer::TemporalDeviation> temporal;  ///< present where requested
 };
 

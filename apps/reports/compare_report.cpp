@@ -58,16 +58,19 @@ std::string flip_text(const CompareReport& report, Metric metric) {
 
 }  // namespace
 
+ordered_json head_json(const CompareReport& report) {
+  const renderer::ErrorMetrics& errors = report.errors;
+  return {{"schema", 1},
+          {"reference", report.references.front()},
+          {"test", report.tests.front()},
+          {"width", report.width},
+          {"height", report.height},
+          {"pixels", errors.pixels},
+          {"nonfinite", {{"reference", errors.nonfinite_reference}, {"test", errors.nonfinite_test}}}};
+}
+
 std::string compare_json(const CompareReport& report) {
-  ordered_json json = {
-      {"schema", 1},
-      {"reference", report.references.front()},
-      {"test", report.tests.front()},
-      {"width", report.width},
-      {"height", report.height},
-      {"pixels", report.errors.pixels},
-      {"nonfinite",
-       {{"reference", report.errors.nonfinite_reference}, {"test", report.errors.nonfinite_test}}}};
+  ordered_json json = head_json(report);
   if (report.bias_rel_mse) {
     json["halves"] = {report.references.back(), report.tests.back()};
   }

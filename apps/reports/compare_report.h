@@ -1,6 +1,7 @@
 #pragma once
 // The results of `compare` as text and as JSON.
 
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -45,6 +46,9 @@ struct CompareReport {
   std::optional<renderer::FlipResult> hdr_flip;
   std::optional<double> bias_rel_mse;  ///< of halves
 };
+
+/// What both the report of two pictures and that of frames begin with.
+nlohmann::ordered_json head_json(const CompareReport& report);
 
 std::string compare_text(const CompareReport& report);
 std::string compare_json(const CompareReport& report);

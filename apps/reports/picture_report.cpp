@@ -41,21 +41,11 @@ std::string layer_text(const renderer::Layer& layer) {
   return fmt::format("{} ({})", layer.name.empty() ? "beauty" : layer.name, fmt::join(layer.channels, ","));
 }
 
-/// "960,540", "sobol", "0.5".
-std::string value_text(const ordered_json& value) {
-  if (value.is_string()) return value.get<std::string>();
-  if (value.is_number_float()) return fmt::format("{}", value.get<double>());
-  if (!value.is_array()) return json_text(value, -1);
-  std::vector<std::string> parts;
-  for (const ordered_json& part : value) parts.push_back(value_text(part));
-  return fmt::format("{}", fmt::join(parts, ","));
-}
-
 /// The option as its flag takes it; empty where it has no value.
 std::string option_text(const std::string& name, const ordered_json& value) {
   if (name == "size" && value.is_array() && value.size() == 2)
-    return fmt::format("{}x{}", value_text(value[0]), value_text(value[1]));
-  return value_text(value);
+    return fmt::format("{}x{}", flag_text(value[0]), flag_text(value[1]));
+  return flag_text(value);
 }
 
 Rows rows_of(const std::string& file, const Picture& picture) {

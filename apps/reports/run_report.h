@@ -40,4 +40,10 @@ std::string word_of(renderer::EndedBy end);
 /// The notice after a signal: the progress, also of training where that was cut short, and what was written.
 std::string stop_notice(const RenderSettings& settings, const RunReport& report);
 
+/// One line for a finished frame of an animation.
+std::string frame_line(int frame, const RenderSettings& settings, const RunReport& report);
+
+/// The lines after the last frame.
+std::string frames_summary(std::size_t frames, double seconds, const RunReport& report);
+
 }  // namespace gatelight::apps

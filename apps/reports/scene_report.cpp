@@ -50,10 +50,6 @@ constexpr NamedRequirement kRequirements[] = {
     {"image_light", &SceneRequirements::image_light},
 };
 
-constexpr renderer::Choice<scene::LightType> kLightTypes[] = {{"directional", scene::LightType::directional},
-                                                              {"point", scene::LightType::point},
-                                                              {"spot", scene::LightType::spot}};
-
 const char* name_of_type(const scene::Camera& camera) {
   return camera.orthographic ? "orthographic" : "perspective";
 }

@@ -1,5 +1,4 @@
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <cmath>
 #include <limits>
@@ -62,15 +61,9 @@ constexpr Requirement kUniformRule{
     [](const RenderOptions& o) { return o.cache.gate.rule == neural::ResolutionRule::uniform; },
     "`resolution` uniform"};
 
-std::string stack_text(const std::vector<std::uint32_t>& stack) {
-  std::vector<std::string> levels;
-  for (const std::uint32_t level : stack) levels.push_back(neural::level_text(level));
-  return fmt::format("{}", fmt::join(levels, ","));
-}
-
 /// "adaptive,adaptive/4,1": kAdaptive, adaptive_part(4) and 1.
-std::vector<std::uint32_t> read_stack(const std::string& text) {
-  const std::string option = "stack", part = "adaptive/";
+std::vector<std::uint32_t> read_stack(const std::string& option, const std::string& text) {
+  const std::string part = "adaptive/";
   const std::vector<std::string> words = split_list(option, text);
   if (words.size() > neural::kMaxStack) {
     throw BadOption({option, text, fmt::format("has {} levels", words.size()),
@@ -115,11 +108,11 @@ void read_resolution(const std::string& text, neural::GateOptions& gate) {
   }
 }
 
-std::string read_device(const std::string& text) {
+std::string read_device(const std::string& option, const std::string& text) {
   constexpr std::string_view kChosen = "vulkan:";
   const bool chosen = text.starts_with(kChosen) && text.size() > kChosen.size();
   if (text != "cpu" && text != "vulkan" && !chosen)
-    refuse_choice("device", text, "cpu|vulkan|vulkan:INDEX|vulkan:NAME");
+    refuse_choice(option, text, "cpu|vulkan|vulkan:INDEX|vulkan:NAME");
   return text;
 }
 
@@ -216,12 +209,10 @@ void add_gate_options(OptionGroup& group, neural::GateOptions& options, std::opt
     group.add(std::move(option), {.of_field = true, .needs = std::move(needs)});
   };
   add(number("features", features, kFeatures, "L", "gate: numbers in a feature vector"));
-  add({.name = "stack",
-       .unit = "LIST",
-       .help = "gate: resolutions of the levels, separated by commas, at most 4; 'adaptive' is the "
-               "result of --resolution, 'adaptive/4' a fourth of it",
-       .value = [&options] { return stack_text(options.stack); },
-       .read = [&options](const std::string& text) { options.stack = read_stack(text); }});
+  add(read_by("stack", stack, "LIST",
+              "gate: resolutions of the levels, separated by commas, at most 4; 'adaptive' is the "
+              "result of --resolution, 'adaptive/4' a fourth of it",
+              neural::stack_text, read_stack));
   add({.name = "resolution",
        .unit = "uniform|paper|fixed:R",
        .help = "gate: feature vectors along a triangle's edge, for each instance: by --node-spacing, by the "
@@ -320,12 +311,11 @@ void add_answer_options(std::vector<Option>& table, CacheOptions& options) {
   group.add(choice("query-precision", options.bf16_queries, kPrecisions,
                    "Arithmetic of answers in the picture; bf16 is faster where the processor has it"),
             {.of_field = true});
-  group.add({.name = "device",
-             .unit = "cpu|vulkan[:INDEX|NAME]",
-             .help = "Device that trains and evaluates the cache",
-             .value = [&options] { return options.device; },
-             .read = [&options](const std::string& text) { options.device = read_device(text); }},
-            {.of_field = true});
+  group.add(
+      read_by(
+          "device", options.device, "cpu|vulkan[:INDEX|NAME]", "Device that trains and evaluates the cache",
+          [](const std::string& device) { return device; }, read_device),
+      {.of_field = true});
 }
 
 }  // namespace

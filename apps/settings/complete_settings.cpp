@@ -8,7 +8,6 @@
 
 #include "apps/settings/camera_names.h"
 #include "apps/settings/file_names.h"
-#include "apps/settings/frame_flags.h"
 #include "apps/settings/option_table.h"
 #include "apps/settings/picture_output.h"
 #include "apps/settings/view_file.h"
@@ -33,11 +32,6 @@ Vec3 vector(const std::array<float, 3>& v) {
 
 std::string text(const std::array<float, 3>& v) {
   return fmt::format("{},{},{}", v[0], v[1], v[2]);
-}
-
-std::uint64_t pixels_of(const RenderOptions& options) {
-  const std::array<int, 4> r = options.region.value_or(std::array{0, 0, options.width, options.height});
-  return static_cast<std::uint64_t>(r[2] - r[0]) * static_cast<std::uint64_t>(r[3] - r[1]);
 }
 
 void complete_view(RenderSettings& settings) {
@@ -158,7 +152,7 @@ void open_samples(RenderSettings& settings) {
   if (timed && settings.preset && !settings.given.contains("train-steps")) o.cache.train_steps.reset();
   if (settings.given.contains("spp") || (!timed && o.max_error <= 0.0)) return;
   if (!timed && uses_cache(o.integrator) && !o.cache.train_steps && o.cache.cache_in.empty())
-    o.cache.train_steps = choose_training_steps(o, pixels_of(o));  // for the usual number of samples
+    o.cache.train_steps = choose_training_steps(o, count_pixels(o));  // for the usual number of samples
   o.spp = timed ? kUnlimitedSpp : kMaxForError;
   o.spp_of_paths = 0;
 }
@@ -229,7 +223,31 @@ void require_file(const std::string& what, const std::string& path) {
     throw InputError(fmt::format("cannot read {} '{}': it is a folder", what, path));
 }
 
+void check_frame_groups(const RenderSettings& settings) {
+  const FrameSettings& frames = settings.frames;
+  if (frames.groups == 1) return;
+  const RenderOptions& options = settings.render;
+  const auto refuse = [](const char* problem, const std::string& expected) {
+    throw BadOption({"frame-groups", "", problem, expected});
+  };
+  if (!frames.range) refuse("there are no frames", "`frames` or `turntable` with it");
+  if (const std::size_t count = frames.range->numbers().size();
+      count < static_cast<std::size_t>(frames.groups))
+    refuse("there are fewer frames", fmt::format("at most their number, {}", count));
+  if (!options.checkpoint.file.empty())
+    refuse("a checkpoint is of one frame after the other",
+           "no `checkpoint`; `skip-existing` leaves out those that are done");
+  if (!options.choose_integrator) check_frame_groups(frames, options.integrator);
+  if (options.denoise.denoiser != DenoiserKind::none && options.denoise.temporal)
+    refuse("denoised frames take over light of the one before", "`temporal` off or `denoiser` none");
+}
+
 }  // namespace
+
+std::uint64_t count_pixels(const RenderOptions& options) {
+  const std::array<int, 4> r = options.region.value_or(std::array{0, 0, options.width, options.height});
+  return static_cast<std::uint64_t>(r[2] - r[0]) * static_cast<std::uint64_t>(r[3] - r[1]);
+}
 
 std::set<std::string> options_without_effect(RenderSettings settings) {
   std::set<std::string> names;
@@ -237,6 +255,26 @@ std::set<std::string> options_without_effect(RenderSettings settings) {
     if (!why_without_effect(option, settings.render).problem.empty()) names.insert(option.name);
   }
   return names;
+}
+
+void apply_display_defaults(RenderSettings& settings) {
+  if (!settings.preset) return;
+  const Integrator integrator = settings.render.integrator;
+  const bool radiance = integrator == Integrator::nrc || integrator == Integrator::path;
+  if (radiance && !settings.given.contains("exposure")) settings.exposure.reset();
+  const bool finished = settings.preset == CachePreset::preview || settings.preset == CachePreset::standard ||
+                        settings.preset == CachePreset::final;
+  if (radiance && finished && !settings.given.contains("tonemap"))
+    settings.image.display.tonemap = Tonemap::agx;
+}
+
+void check_frame_groups(const FrameSettings& frames, Integrator integrator) {
+  if (frames.groups > 1 && uses_cache(integrator))
+    throw BadOption(
+        {"frame-groups", "",
+         fmt::format("frames of a kept cache depend on the one before, and the integrator is '{}'",
+                     enum_name(integrator)),
+         "`integrator` path or ao"});
 }
 
 void complete_settings(RenderSettings& settings) {

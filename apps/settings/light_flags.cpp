@@ -69,12 +69,12 @@ std::string text_of(const std::vector<scene::LightProfile>& profiles) {
   return text;
 }
 
-std::vector<renderer::LightGroup> read_light_groups(const std::string& text) {
+std::vector<renderer::LightGroup> read_light_groups(const std::string& option, const std::string& text) {
   if (text == "none") return {};
   std::vector<renderer::LightGroup> groups;
   for (const std::string& part : split(text, ';')) {
     const std::size_t equals = part.find('=');  // names of groups have none
-    if (equals == std::string::npos) throw BadOption({"light-groups", part, "", "NAME=LIGHT,LIGHT"});
+    if (equals == std::string::npos) throw BadOption({option, part, "", "NAME=LIGHT,LIGHT"});
     groups.push_back({part.substr(0, equals), split(part.substr(equals + 1), ',')});
   }
   renderer::check_light_groups(groups);

@@ -183,6 +183,18 @@ Option choice(const std::string& name, Enumeration& member, const char* help) {
   return choice(name, member, Choices<Enumeration>(kEnumNames<Enumeration>), help);
 }
 
+/// A member that a function of its own reads from the option's name and a text. It has no value where
+/// `value` gives none.
+template <class Member, class Value, class Read>
+Option read_by(const std::string& name, Member& member, const char* unit, const char* help, Value value,
+               Read read) {
+  return {.name = name,
+          .unit = unit,
+          .help = help,
+          .value = [&member, value]() -> OptionValue { return value(member); },
+          .read = [&member, name, read](const std::string& text) { member = read(name, text); }};
+}
+
 /// Any word; an empty one counts as no value.
 Option any_word(const char* name, std::string& member, const char* unit, const char* help);
 /// A flag without a value.

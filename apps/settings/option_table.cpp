@@ -90,36 +90,25 @@ void add_load_options(OptionGroup& group, scene::LoadOptions& load) {
       "backfaces", back_faces, kBackFaces,
       "Back faces of materials that are not doubleSided: reflect but do not emit (show), let rays pass as "
       "glTF wants it (cull), or emit too (light); files with walls of one side would lose them by culling"));
-  add({.name = "lights",
-       .unit = "NAME=off|X|r,g,b;...",
-       .help = "Lights and emissive materials of the file, by name, switched off or multiplied; a '*' at the "
-               "end of a name fits any ending, and the last that fits a light counts: \"*=off;lamp=2\"",
-       .value = [&chosen = lights]() -> OptionValue {
-         return chosen.empty() ? OptionValue() : text_of(chosen);
-       },
-       .read = [&chosen = lights](const std::string& text) { chosen = read_lights("lights", text); }},
+  add(read_by("lights", lights, "NAME=off|X|r,g,b;...",
+              "Lights and emissive materials of the file, by name, switched off or multiplied; a '*' at the "
+              "end of a name fits any ending, and the last that fits a light counts: \"*=off;lamp=2\"",
+              list_value, read_lights),
       {.in_window = true});
-  add({.name = "ies",
-       .unit = "NAME=FILE;...",
-       .help =
-           "Profiles of IES files (LM-63, type C) for point and spot lights of the file, by name as in "
-           "--lights. The light aims along its node's -z, keeps its intensity in the brightest direction, "
-           "and loses its cone",
-       .value = [&chosen = profiles]() -> OptionValue {
-         return chosen.empty() ? OptionValue() : text_of(chosen);
-       },
-       .read = [&chosen = profiles](const std::string& text) { chosen = read_profiles("ies", text); }});
+  add(read_by("ies", profiles, "NAME=FILE;...",
+              "Profiles of IES files (LM-63, type C) for point and spot lights of the file, by name as in "
+              "--lights. The light aims along its node's -z, keeps its intensity in the brightest direction, "
+              "and loses its cone",
+              list_value, read_profiles));
   add(choice("missing", missing_is_error, kMissing, "When a texture cannot be read"));
   add(external_option(allow_external));
-  add({.name = "ignore-required",
-       .unit = "NAME,...",
-       .help =
-           "Extensions of glTF that the file may require although they are not supported: they are left out",
-       .value = [&chosen = ignored]() -> OptionValue {
-         return chosen.empty() ? OptionValue() : fmt::format("{}", fmt::join(chosen, ","));
-       },
-       .read = [&chosen =
-                    ignored](const std::string& text) { chosen = split_list("ignore-required", text); }});
+  add(read_by(
+      "ignore-required", ignored, "NAME,...",
+      "Extensions of glTF that the file may require although they are not supported: they are left out",
+      [](const std::vector<std::string>& names) -> OptionValue {
+        return names.empty() ? OptionValue() : fmt::format("{}", fmt::join(names, ","));
+      },
+      split_list));
 }
 
 void add_frame_options(OptionGroup& group, FrameSettings& frames) {
@@ -132,29 +121,23 @@ void add_frame_options(OptionGroup& group, FrameSettings& frames) {
     marks.in_sweep = false;
     group.add(std::move(option), std::move(marks));
   };
-  add({.name = "frames",
-       .unit = "A:B[:STEP]",
-       .help = "Frames, or a list as 1,3,5-9, each to its own file: -o frame-%04d.exr, #### or {frame}",
-       .value = [&chosen = range]() -> OptionValue { return text_of(*chosen); },
-       .read = [&chosen = range](const std::string& text) { chosen = parse_frames("frames", text); }},
+  add(read_by(
+          "frames", range, "A:B[:STEP]",
+          "Frames, or a list as 1,3,5-9, each to its own file: -o frame-%04d.exr, #### or {frame}",
+          [](const std::optional<FrameList>& chosen) { return text_of(*chosen); }, parse_frames),
       {.common = true});
-  add({.name = "fps",
-       .unit = "N",
-       .help = "Frames of a second: frame n shows the time n / N; also 30000/1001",
-       .value = [&chosen = fps]() -> OptionValue { return chosen; },
-       .read = [&chosen = fps](const std::string& text) { chosen = parse_fps("fps", text); }});
+  add(read_by(
+      "fps", fps, "N", "Frames of a second: frame n shows the time n / N; also 30000/1001",
+      [](double chosen) { return chosen; }, parse_fps));
   add(number("turntable", turntable, kTurns, "N",
              "The camera goes around what it looks at, once in N frames; alone it renders these"));
-  group.add(
-      {.name = "shutter",
-       .unit = "OPEN:CLOSE",
-       .help = "Motion blur: the shutter is open from a frame's time plus OPEN to that plus CLOSE, both in "
-               "frames of --fps; -0.25:0.25 is a shutter of 180 degrees",
-       .value = [&chosen = shutter]() -> OptionValue {
-         return chosen.is_open() ? text_of(chosen) : OptionValue();
-       },
-       .read = [&chosen = shutter](const std::string& text) { chosen = parse_shutter("shutter", text); }},
-      {.in_sweep = false});
+  group.add(read_by(
+                "shutter", shutter, "OPEN:CLOSE",
+                "Motion blur: the shutter is open from a frame's time plus OPEN to that plus CLOSE, both in "
+                "frames of --fps; -0.25:0.25 is a shutter of 180 degrees",
+                [](const ShutterRange& chosen) { return chosen.is_open() ? text_of(chosen) : OptionValue(); },
+                parse_shutter),
+            {.in_sweep = false});
   group.add(number("frame-groups", groups, kGroups, "N",
                    "Groups of the ranks of gatelight-mpi: each renders every N-th "
                    "frame; only where frames do not depend on each other"),

@@ -88,14 +88,9 @@ Option size_option(int& width, int& height) {
 }
 
 Option region_option(std::optional<std::array<int, 4>>& region) {
-  const auto value = [&] {
-    return region ? std::vector<int>(region->begin(), region->end()) : OptionValue();
-  };
-  return {.name = "region",
-          .unit = "x0,y0,x1,y1",
-          .help = "Render this part only, in pixels; x1 and y1 are excluded",
-          .value = value,
-          .read = [&](const std::string& text) { region = parse_region("region", text); }};
+  return read_by(
+      "region", region, "x0,y0,x1,y1", "Render this part only, in pixels; x1 and y1 are excluded",
+      [](const auto& r) { return r ? std::vector<int>(r->begin(), r->end()) : OptionValue(); }, parse_region);
 }
 
 Option aov_option(std::vector<Aov>& aovs) {
@@ -113,26 +108,22 @@ Option aov_option(std::vector<Aov>& aovs) {
 }
 
 Option cryptomatte_option(std::vector<MatteKind>& kinds) {
-  return {.name = "cryptomatte",
-          .unit = "object,material",
-          .help =
-              "Masks for compositing in EXR files, by the names of objects, of materials or of both: the "
-              "layers of the Cryptomatte specification, six names a pixel; glass and mirrors are objects "
-              "themselves",
-          .value = [&]() -> OptionValue { return kinds.empty() ? OptionValue() : words_of(kinds); },
-          .read = [&](const std::string& text) { kinds = read_words<MatteKind>("cryptomatte", text); }};
+  return read_by(
+      "cryptomatte", kinds, "object,material",
+      "Masks for compositing in EXR files, by the names of objects, of materials or of both: the layers of "
+      "the "
+      "Cryptomatte specification, six names a pixel; glass and mirrors are objects themselves",
+      [](const auto& chosen) { return chosen.empty() ? OptionValue() : words_of(chosen); },
+      [](const std::string& option, const std::string& text) { return read_words<MatteKind>(option, text); });
 }
 
 Option light_groups_option(std::vector<LightGroup>& groups) {
-  return {.name = "light-groups",
-          .unit = "none|A=LIGHT,LIGHT;B=...",
-          .help =
-              "Layers of EXR files, light-A and so on, with the part of these lights and emissive "
-              "materials of the file, by name ('*' ends a name that only begins so), or of the "
-              "environment; 'rest' is that of all others; with --integrator path: "
-              "\"key=Sun,Lamp*;sky=environment\"",
-          .value = [&]() -> OptionValue { return groups.empty() ? OptionValue() : text_of(groups); },
-          .read = [&](const std::string& text) { groups = read_light_groups(text); }};
+  return read_by("light-groups", groups, "none|A=LIGHT,LIGHT;B=...",
+                 "Layers of EXR files, light-A and so on, with the part of these lights and emissive "
+                 "materials of the file, by name ('*' ends a name that only begins so), or of the "
+                 "environment; 'rest' is that of all others; with --integrator path: "
+                 "\"key=Sun,Lamp*;sky=environment\"",
+                 list_value, read_light_groups);
 }
 
 Option integrator_option(Integrator& integrator, bool& choose) {

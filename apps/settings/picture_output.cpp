@@ -33,6 +33,10 @@ ImageFormat output_format(const std::string& output) {
   return stdout_format(output).value_or(renderer::image_format(output));
 }
 
+bool is_picture(const std::string& file) {
+  return renderer::image_format(file) != ImageFormat::unknown;
+}
+
 std::vector<std::string> files_of(std::span<const std::string> outputs) {
   std::vector<std::string> files;
   std::copy_if(outputs.begin(), outputs.end(), std::back_inserter(files),

@@ -18,6 +18,9 @@ std::optional<renderer::ImageFormat> stdout_format(const std::string& output);
 /// The format of a file or of standard output.
 renderer::ImageFormat output_format(const std::string& output);
 
+/// Whether the name is that of a picture's file.
+bool is_picture(const std::string& file);
+
 /// The outputs that are files.
 std::vector<std::string> files_of(std::span<const std::string> outputs);
 

@@ -21,17 +21,16 @@ bool shows_on_a_screen(const std::vector<std::string>& outputs) {
 }
 
 std::vector<std::string> unused_output_flags(RenderSettings settings) {
-  constexpr const char* kExtensions[] = {".exr", ".png", ".jpg", ".tif", ".hdr"};  // of ImageFormat
   std::set<ImageFormat> formats;
   for (const std::string& output : settings.outputs) formats.insert(output_format(output));
   std::vector<std::string> unused;
   for (const Option& option : option_table(settings)) {
     if (!settings.given.contains(option.name) || option.marks.formats.empty()) continue;
-    std::vector<std::string> extensions;
+    std::vector<std::string_view> extensions;
     bool useful = false;
     for (const ImageFormat format : option.marks.formats) {
       useful |= formats.contains(format);
-      extensions.emplace_back(kExtensions[static_cast<int>(format)]);
+      extensions.push_back(renderer::extension_of(format));
     }
     if (!useful)
       unused.push_back(

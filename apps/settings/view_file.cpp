@@ -10,19 +10,12 @@
 
 #include "apps/settings/option_table.h"
 #include "apps/terminal/errors.h"
+#include "apps/terminal/text.h"
 
 namespace gatelight::apps {
 namespace {
 
-using nlohmann::json;
-
-std::string text_of(const json& value) {
-  if (value.is_string()) return value;
-  if (!value.is_array()) return value.dump();
-  std::vector<std::string> parts;
-  for (const json& part : value) parts.push_back(text_of(part));
-  return fmt::format("{}", fmt::join(parts, ","));
-}
+using nlohmann::ordered_json;
 
 /// Whether options beside the file replace a member: its own, or one that excludes it.
 bool replaced(const std::set<std::string>& given, const Option& member) {
@@ -31,11 +24,11 @@ bool replaced(const std::set<std::string>& given, const Option& member) {
                      [&](const std::string& other) { return given.contains(other); });
 }
 
-json read_object(const std::string& path) {
+ordered_json read_object(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   if (!file) throw InputError(fmt::format("cannot read the view '{}': there is no such file", path));
   const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-  json view = json::parse(text, nullptr, false);
+  ordered_json view = ordered_json::parse(text, nullptr, false);
   if (!view.is_object())
     throw InputError(fmt::format("cannot read the view '{}': it is no JSON object", path));
   return view;
@@ -45,7 +38,7 @@ json read_object(const std::string& path) {
 
 void read_view_file(RenderSettings& settings) {
   if (settings.view_file.empty()) return;
-  const json view = read_object(settings.view_file);
+  const ordered_json view = read_object(settings.view_file);
   std::vector<Option> table = option_table(settings);
   std::erase_if(table, [](const Option& option) { return !option.marks.of_view; });
   for (const auto& [name, value] : view.items()) {
@@ -59,7 +52,7 @@ void read_view_file(RenderSettings& settings) {
     }
     if (value.is_null() || replaced(settings.given, *option)) continue;
     try {
-      option->read(text_of(value));
+      option->read(flag_text(value));
     } catch (const BadOption& error) {
       throw InputError(fmt::format("the view '{}': {}", settings.view_file, error.what()));
     }

@@ -43,6 +43,10 @@ std::string measures(const renderer::Progress& progress, double samples_per_seco
 
 }  // namespace
 
+std::string word_of(renderer::Phase phase) {
+  return renderer::name_of(kPhases, phase);
+}
+
 ProgressLine::ProgressLine(ProgressMode mode) : mode_(mode) {
   if (mode_ == ProgressMode::automatic)
     mode_ = ::isatty(STDERR_FILENO) == 1 ? ProgressMode::bar : ProgressMode::none;
@@ -120,7 +124,7 @@ ProgressReporter::Rates ProgressReporter::rates(const renderer::Progress& progre
 
 void ProgressReporter::show_json(const renderer::Progress& progress, const Rates& rates) {
   nlohmann::ordered_json line = {
-      {"event", "progress"}, {"phase", name_of(kPhases, progress.phase)}, {"fraction", progress.fraction}};
+      {"event", "progress"}, {"phase", word_of(progress.phase)}, {"fraction", progress.fraction}};
   if (progress.phase == renderer::Phase::train) {
     line["steps_done"] = progress.steps_done;
     line["steps"] = progress.steps;
@@ -142,7 +146,7 @@ void ProgressReporter::show_json(const renderer::Progress& progress, const Rates
 }
 
 void ProgressReporter::show_bar(const renderer::Progress& progress, const Rates& rates) {
-  std::string name = name_of(kPhases, progress.phase);
+  std::string name = word_of(progress.phase);
   if (frame_)
     name = fmt::format("frame {} ({} of {}) {}", frame_->number, frame_->done + 1, frame_->count, name);
   const std::string numbers = fmt::format(" {:5.1f} %{}  ETA {}", 100.0 * progress.fraction,

@@ -19,6 +19,9 @@ enum class ProgressMode : std::uint8_t {
   none,
 };
 
+/// "scout", "train", "render" or "denoise".
+std::string word_of(renderer::Phase phase);
+
 /// A status line on stderr that is redrawn in place, or JSON lines.
 class ProgressLine {
  public:

@@ -1,6 +1,7 @@
 #include "apps/terminal/text.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <array>
 #include <charconv>
@@ -65,6 +66,15 @@ std::string format_percent(double fraction) {
 
 std::string json_text(const nlohmann::ordered_json& json, int indent) {
   return json.dump(indent, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+}
+
+std::string flag_text(const nlohmann::ordered_json& value) {
+  if (value.is_string()) return value.get<std::string>();
+  if (value.is_number_float()) return fmt::format("{}", value.get<double>());
+  if (!value.is_array()) return json_text(value, -1);
+  std::vector<std::string> parts;
+  for (const nlohmann::ordered_json& part : value) parts.push_back(flag_text(part));
+  return fmt::format("{}", fmt::join(parts, ","));
 }
 
 std::string with_flags(std::string_view message) {

@@ -25,6 +25,9 @@ std::string format_percent(double fraction);  ///< "0.31 %", "3.1 %", "312 %"
 /// JSON as text. Bytes that are not UTF-8, which file names may have, are replaced. indent -1: one line.
 std::string json_text(const nlohmann::ordered_json& json, int indent = 1);
 
+/// A value as its flag takes it: "960,540", "sobol", "0.5".
+std::string flag_text(const nlohmann::ordered_json& value);
+
 /// The libraries put names of options in back-ticks; the program shows its flags: `max-depth` becomes
 /// --max-depth.
 std::string with_flags(std::string_view message);

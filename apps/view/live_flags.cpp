@@ -6,7 +6,6 @@
 #include <iterator>
 
 #include "apps/settings/complete_settings.h"
-#include "apps/settings/display_defaults.h"
 #include "apps/settings/flags.h"
 #include "apps/settings/option_table.h"
 #include "apps/terminal/errors.h"

@@ -10,8 +10,7 @@
 
 namespace gatelight::apps {
 PictureFile::PictureFile(const std::string& file, std::vector<std::string> words)
-    : file_(file),
-      words_(std::move(words)),
+    : PictureSource(file, std::move(words)),
       picture_(renderer::read_image(file)),
       first_(shown_with({}, 1)) {}
 
@@ -27,13 +26,6 @@ std::shared_ptr<const ShownPicture> PictureFile::shown_with(const LiveFlags& fla
   return shown;
 }
 
-PictureFile::Viewer& PictureFile::viewer(const std::string& name) {
-  if (!viewers_.contains(name) && viewers_.size() >= kMaxViewers) viewers_.erase(viewers_.begin());
-  Viewer& of = viewers_[name];
-  if (!of.shown) of.shown = first_;
-  return of;
-}
-
 std::uint64_t PictureFile::change(const std::string& name, const FlagChange& flags, const std::string&) {
   const std::set<std::string> known = option_names([](const Option& option) {
     return option.marks.in_window && option.marks.stage == OptionStage::output;
@@ -45,45 +37,22 @@ std::uint64_t PictureFile::change(const std::string& name, const FlagChange& fla
   const std::lock_guard lock(mutex_);
   Viewer& of = viewer(name);
   const LiveFlags wanted = changed(of.flags, flags);
-  of.shown = shown_with(wanted, of.shown->revision + 1);
+  of.shown = of.whole = shown_with(wanted, of.revision + 1);
+  ++of.revision;
   of.flags = wanted;
   news_.notify_all();
-  return of.shown->revision;
-}
-
-LiveFlags PictureFile::flags(const std::string& name) {
-  const std::lock_guard lock(mutex_);
-  return viewer(name).flags;
+  return of.revision;
 }
 
 ViewerStatus PictureFile::status(const std::string& name) {
   const std::lock_guard lock(mutex_);
-  const std::uint64_t revision = viewer(name).shown->revision;
+  const std::uint64_t revision = viewer(name).revision;
   return {.revision = revision, .version = revision, .complete = true};
-}
-
-std::shared_ptr<const ShownPicture> PictureFile::wait(const std::string& name, std::uint64_t version,
-                                                      std::chrono::milliseconds most) {
-  std::unique_lock lock(mutex_);
-  news_.wait_for(lock, most, [&] { return stopped_ || viewer(name).shown->version > version; });
-  const std::shared_ptr<const ShownPicture> shown = viewer(name).shown;
-  return shown->version > version ? shown : nullptr;
-}
-
-std::shared_ptr<const ShownPicture> PictureFile::last_whole(const std::string& name) {
-  const std::lock_guard lock(mutex_);
-  return viewer(name).shown;
 }
 
 std::string PictureFile::command(const std::string&) {
   const auto found = picture_.metadata.find("command");
   return found == picture_.metadata.end() ? "" : found->second;
-}
-
-void PictureFile::stop() {
-  const std::lock_guard lock(mutex_);
-  stopped_ = true;
-  news_.notify_all();
 }
 
 }  // namespace gatelight::apps

@@ -2,9 +2,11 @@
 // What a page shows: pictures of a scene that are made while it is open, or a finished picture.
 
 #include <chrono>
-#include <cstddef>
+#include <condition_variable>
 #include <cstdint>
+#include <map>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -12,12 +14,10 @@
 #include "apps/view/live_flags.h"
 #include "apps/view/picture_ladder.h"
 #include "apps/view/scene_outline.h"
+#include "base/clock.h"
 #include "renderer/render.h"
 
 namespace gatelight::apps {
-
-/// A further one takes the place of another.
-inline constexpr std::size_t kMaxViewers = 64;
 
 /// A picture that a viewer has got. It does not change.
 struct ShownPicture {
@@ -43,35 +43,59 @@ struct ViewerStatus {
   std::string error;  ///< why there is no picture of the present flags; else empty
 };
 
-/// Any thread may call its functions. A viewer is made where its name is new.
+/// Any thread may call its public functions. A viewer is made where its name is new.
 class PictureSource {
  public:
-  PictureSource() = default;
+  /// `words`: the flags of the command line.
+  PictureSource(std::string file, std::vector<std::string> words);
   PictureSource(const PictureSource&) = delete;
   PictureSource& operator=(const PictureSource&) = delete;
   virtual ~PictureSource() = default;
 
-  virtual const std::string& file() const = 0;
-  /// The flags of the command line.
-  virtual const std::vector<std::string>& words() const = 0;
+  const std::string& file() const { return file_; }
+  const std::vector<std::string>& words() const { return words_; }
   /// What the scene has, as it was loaded; null for a picture.
-  virtual const SceneOutline* outline() const = 0;
+  virtual const SceneOutline* outline() const { return nullptr; }
 
   /// Changes flags of a viewer, and the layer that it shows (empty: as before; "none": the picture). Returns
   /// the new revision. Throws BadOption, with nothing changed.
   virtual std::uint64_t change(const std::string& viewer, const FlagChange& flags,
                                const std::string& layer) = 0;
-  virtual LiveFlags flags(const std::string& viewer) = 0;
+  LiveFlags flags(const std::string& viewer);
   virtual ViewerStatus status(const std::string& viewer) = 0;
   /// The viewer's last picture, once it is later than `version`, or null after `most`.
-  virtual std::shared_ptr<const ShownPicture> wait(const std::string& viewer, std::uint64_t version,
-                                                   std::chrono::milliseconds most) = 0;
+  std::shared_ptr<const ShownPicture> wait(const std::string& viewer, std::uint64_t version,
+                                           std::chrono::milliseconds most);
   /// Its last picture with all layers; null before the first one.
-  virtual std::shared_ptr<const ShownPicture> last_whole(const std::string& viewer) = 0;
+  std::shared_ptr<const ShownPicture> last_whole(const std::string& viewer);
   /// The command that makes the picture; empty where it is not known.
   virtual std::string command(const std::string& viewer) = 0;
   /// Ends the waiting of all callers.
-  virtual void stop() = 0;
+  virtual void stop();
+
+ protected:
+  struct Viewer {
+    LiveFlags flags;
+    std::string layer;
+    RenderSettings settings;
+    std::uint64_t revision = 1;
+    Stage reached = Stage::none;
+    Clock::time_point changed = Clock::now();
+    Clock::time_point seen = Clock::now();  ///< when it was last asked for
+    std::shared_ptr<const ShownPicture> shown, whole;
+    ViewerStatus status;
+  };
+  /// The caller holds the mutex.
+  Viewer& viewer(const std::string& name);
+  /// Completes a new viewer, with the mutex held.
+  virtual void welcome(Viewer& made) = 0;
+
+  const std::string file_;
+  const std::vector<std::string> words_;
+  std::mutex mutex_;  ///< of what follows
+  std::condition_variable news_;
+  std::map<std::string, Viewer> viewers_;
+  bool stopped_ = false;
 };
 
 }  // namespace gatelight::apps

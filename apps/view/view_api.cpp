@@ -8,17 +8,19 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "apps/reports/recipe.h"
+#include "apps/job/finished_picture.h"
+#include "apps/reports/run_report.h"
 #include "apps/settings/parsing.h"
 #include "apps/terminal/errors.h"
 #include "apps/terminal/text.h"
 #include "apps/view/pixel_report.h"
 #include "apps/view/shown_layers.h"
-#include "apps/view/view_page.h"
 #include "base/errors.h"
 #include "base/image/jpeg_write.h"
 #include "base/image/png_write.h"
+#include "gatelight_view_page.inc"
 #include "renderer/image/image_write.h"
+#include "renderer/settings/enum_names.h"
 
 namespace gatelight::apps {
 namespace {
@@ -28,6 +30,14 @@ using nlohmann::ordered_json;
 constexpr std::chrono::milliseconds kLongestWait{10000};
 constexpr std::size_t kLongestName = 40;
 constexpr int kJpegQuality = 90;
+
+/// The file of the page, which is a part of the program; a status of 404 for another name.
+WebResponse page_file(const std::string& name) {
+  if (name.empty()) return {.type = "text/html; charset=utf-8", .body = kViewHtml};
+  if (name == "view.css") return {.type = "text/css; charset=utf-8", .body = kViewStyle};
+  if (name == "view.js") return {.type = "text/javascript; charset=utf-8", .body = kViewScript};
+  return {.status = 404};
+}
 
 const char* name_of_stage(Stage stage) {
   constexpr const char* kNames[] = {"none", "draft", "preview", "refined", "final"};
@@ -112,8 +122,8 @@ const renderer::Picture* picture_with(const ShownPicture* shown, const std::stri
 
 WebResponse ViewApi::answer(const WebRequest& request) {
   try {
-    if (const PageFile* file = request.method == "GET" ? page_file(request.path) : nullptr)
-      return {.type = std::string(file->type), .body = std::string(file->text)};
+    if (WebResponse file = page_file(request.path); request.method == "GET" && file.status == 200)
+      return file;
     return route(request, viewer_of(request));
   } catch (const BadOption& error) {
     return error_response(400, error.what());
@@ -144,7 +154,10 @@ WebResponse ViewApi::scene(const std::string& viewer) {
     const std::size_t equals = word.find('=');
     if (equals != std::string::npos) words[word.substr(2, equals - 2)] = word.substr(equals + 1);
   }
-  ordered_json json{{"file", source_.file()}, {"given", words}, {"flags", source_.flags(viewer)}};
+  ordered_json curves = ordered_json::array();
+  for (const auto& [name, curve] : renderer::kEnumNames<renderer::Tonemap>) curves.push_back(name);
+  ordered_json json{
+      {"file", source_.file()}, {"given", words}, {"flags", source_.flags(viewer)}, {"curves", curves}};
   if (const SceneOutline* outline = source_.outline()) {
     json.update(describe(*outline));
   } else if (const auto shown = source_.last_whole(viewer)) {
@@ -192,14 +205,13 @@ WebResponse ViewApi::picture(const WebRequest& request, const std::string& viewe
 WebResponse ViewApi::status(const std::string& viewer) {
   const ViewerStatus status = source_.status(viewer);
   const auto whole = source_.last_whole(viewer);
-  constexpr const char* kPhases[] = {"scout", "train", "render", "denoise"};
   const renderer::Progress& p = status.progress;
   ordered_json json{{"revision", status.revision},
                     {"version", status.version},
                     {"stage", name_of_stage(status.stage)},
                     {"complete", status.complete},
                     {"waits", status.waits},
-                    {"phase", kPhases[static_cast<int>(p.phase)]},
+                    {"phase", word_of(p.phase)},
                     {"fraction", p.fraction},
                     {"steps", p.steps_done},
                     {"all_steps", p.steps},
@@ -236,10 +248,10 @@ WebResponse ViewApi::save(const WebRequest& request, const std::string& viewer) 
   const auto whole = source_.last_whole(viewer);
   if (!whole) return error_response(404, "there is no picture yet");
   renderer::Picture picture = whole->picture;
-  const std::string command = source_.command(viewer);
-  picture.metadata.merge(make_recipe(whole->settings, {command}, whole->statistics, whole->seconds));
-  renderer::ImageWriteOptions options = whole->settings.image;
-  options.display = display_of(*whole);
+  RunReport report;
+  report.command = {source_.command(viewer)};
+  const renderer::ImageWriteOptions options =
+      finish_picture(picture, whole->settings, whole->statistics, whole->seconds, report);
   const bool exr = format == "exr";
   const auto bytes =
       renderer::encode_image(picture, exr ? renderer::ImageFormat::exr : renderer::ImageFormat::png, options);

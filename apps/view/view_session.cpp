@@ -16,18 +16,10 @@ constexpr double kGone = 30.0;
 /// Seconds from the begin of a final picture to the first look at it, and the factor of the next ones.
 constexpr double kFirstLook = 1.5, kNextLook = 2.0;
 
-/// The viewer that has not been seen for the longest time.
-template <class Viewers>
-auto oldest(Viewers& viewers) {
-  return std::min_element(viewers.begin(), viewers.end(),
-                          [](const auto& a, const auto& b) { return a.second.seen < b.second.seen; });
-}
-
 }  // namespace
 
 ViewSession::ViewSession(const std::string& scene, std::vector<std::string> words)
-    : file_(scene),
-      words_(std::move(words)),
+    : PictureSource(scene, std::move(words)),
       base_(settings_of(scene, words_, {})),
       scene_(scene, base_.load),
       outline_(outline_of(scene_.scene())) {
@@ -46,25 +38,15 @@ ViewSession::~ViewSession() {
 }
 
 void ViewSession::stop() {
-  const std::lock_guard lock(mutex_);
-  stopped_ = true;
+  PictureSource::stop();
   ++changes_;
   work_.notify_all();
-  news_.notify_all();
 }
 
-ViewSession::Viewer& ViewSession::viewer(const std::string& name) {
-  const auto found = viewers_.find(name);
-  if (found != viewers_.end()) {
-    found->second.seen = Clock::now();
-    return found->second;
-  }
-  if (viewers_.size() >= kMaxViewers) viewers_.erase(oldest(viewers_));
-  Viewer& made = viewers_[name];
+void ViewSession::welcome(Viewer& made) {
   made.settings = base_;
   ++changes_;
   work_.notify_all();
-  return made;
 }
 
 std::uint64_t ViewSession::change(const std::string& name, const FlagChange& flags,
@@ -85,11 +67,6 @@ std::uint64_t ViewSession::change(const std::string& name, const FlagChange& fla
   return of.revision;
 }
 
-LiveFlags ViewSession::flags(const std::string& name) {
-  const std::lock_guard lock(mutex_);
-  return viewer(name).flags;
-}
-
 std::string ViewSession::command(const std::string& name) {
   return render_command(file_, words_, flags(name));
 }
@@ -103,27 +80,6 @@ ViewerStatus ViewSession::status(const std::string& name) {
   status.complete = of.reached == Stage::final;
   status.waits = !status.complete && status.stage == Stage::none;
   return status;
-}
-
-std::shared_ptr<const ShownPicture> ViewSession::wait(const std::string& name, std::uint64_t version,
-                                                      std::chrono::milliseconds most) {
-  std::unique_lock lock(mutex_);
-  viewer(name);
-  const auto is_there = [&] {
-    const auto found = viewers_.find(name);
-    return stopped_ || found == viewers_.end() ||
-           (found->second.shown && found->second.shown->version > version);
-  };
-  news_.wait_for(lock, most, is_there);
-  const auto found = viewers_.find(name);
-  if (found == viewers_.end()) return nullptr;
-  const std::shared_ptr<const ShownPicture>& shown = found->second.shown;
-  return shown && shown->version > version ? shown : nullptr;
-}
-
-std::shared_ptr<const ShownPicture> ViewSession::last_whole(const std::string& name) {
-  const std::lock_guard lock(mutex_);
-  return viewer(name).whole;
 }
 
 bool ViewSession::is_due(const Viewer& of) const {

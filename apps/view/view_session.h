@@ -2,11 +2,8 @@
 // The scene of a window with its cache, and a thread that makes pictures of it for every viewer.
 
 #include <atomic>
-#include <chrono>
 #include <condition_variable>
 #include <cstdint>
-#include <map>
-#include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -30,30 +27,13 @@ class ViewSession : public PictureSource {
   /// Of loading and building: input that was not taken literally.
   const std::vector<std::string>& warnings() const { return warnings_; }
 
-  const std::string& file() const override { return file_; }
-  const std::vector<std::string>& words() const override { return words_; }
   const SceneOutline* outline() const override { return &outline_; }
   std::uint64_t change(const std::string& viewer, const FlagChange& flags, const std::string& layer) override;
-  LiveFlags flags(const std::string& viewer) override;
   ViewerStatus status(const std::string& viewer) override;
-  std::shared_ptr<const ShownPicture> wait(const std::string& viewer, std::uint64_t version,
-                                           std::chrono::milliseconds most) override;
-  std::shared_ptr<const ShownPicture> last_whole(const std::string& viewer) override;
   std::string command(const std::string& viewer) override;
   void stop() override;
 
  private:
-  struct Viewer {
-    LiveFlags flags;
-    std::string layer;
-    RenderSettings settings;
-    std::uint64_t revision = 1;
-    Stage reached = Stage::none;
-    Clock::time_point changed = Clock::now();
-    Clock::time_point seen = Clock::now();  ///< when it was last asked for
-    std::shared_ptr<const ShownPicture> shown, whole;
-    ViewerStatus status;
-  };
   /// What the thread makes next.
   struct Task {
     std::string viewer;
@@ -65,7 +45,7 @@ class ViewSession : public PictureSource {
     Clock::time_point changed;
   };
 
-  Viewer& viewer(const std::string& name);
+  void welcome(Viewer& made) override;
   void run();
   std::optional<Task> next_task();
   bool is_due(const Viewer& viewer) const;
@@ -78,8 +58,6 @@ class ViewSession : public PictureSource {
   void publish(const Task& task, renderer::Picture picture, bool complete);
   void fail(const Task& task);
 
-  const std::string file_;
-  const std::vector<std::string> words_;
   RenderSettings base_;
   std::vector<std::string> warnings_;
   std::mutex renders_;  ///< held while the scene or the renderer is used
@@ -94,12 +72,10 @@ class ViewSession : public PictureSource {
   int frame_ = 0;
   double divisor_ = 4.0;
 
-  std::mutex mutex_;  ///< of what follows
-  std::condition_variable work_, news_;
-  std::map<std::string, Viewer> viewers_;
+  // With the mutex of the viewers.
+  std::condition_variable work_;
   std::uint64_t version_ = 0;
   std::atomic<std::uint64_t> changes_ = 0;
-  bool stopped_ = false;
   std::thread thread_;
 };
 

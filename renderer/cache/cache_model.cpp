@@ -40,27 +40,32 @@ neural::RequiredInputs required_inputs(const World& world, const RenderOptions& 
   return required;
 }
 
-std::shared_ptr<const neural::Model> make_cache_model(const World& world, const RenderOptions& options,
-                                                      const CacheSetup& setup) {
-  const CacheOptions& cache = options.cache;
+neural::ModelConfig model_config(const CacheOptions& cache, const Box& bounds) {
   neural::ModelConfig config;
   config.encoding = cache.encoding;
   config.gate = cache.gate;
-  config.gate.node_spacing = setup.node_spacing;
+  if (cache.node_spacing) config.gate.node_spacing = *cache.node_spacing;
   config.gate.memory_budget = cache.memory_bytes;
   config.gate.bytes_per_feature = cache.training.precision == neural::FeaturePrecision::fp32 ? 4 : 2;
   config.hash_grid = cache.hash_grid;
   config.hash_grid.memory_target = cache.memory_bytes;
   config.hash_grid.bytes_per_feature = config.gate.bytes_per_feature;
-  const Box& bounds = world.scene.bounds;
+  config.mlp = cache.mlp;
   if (!bounds.isEmpty()) {
     for (int axis = 0; axis < 3; ++axis) {
       config.hash_grid.bounds_min[static_cast<std::size_t>(axis)] = bounds.min()[axis];
       config.hash_grid.bounds_max[static_cast<std::size_t>(axis)] = bounds.max()[axis];
     }
   }
+  return config;
+}
+
+std::shared_ptr<const neural::Model> make_cache_model(const World& world, const RenderOptions& options,
+                                                      const CacheSetup& setup) {
+  const CacheOptions& cache = options.cache;
+  neural::ModelConfig config = model_config(cache, world.scene.bounds);
+  config.gate.node_spacing = setup.node_spacing;
   config.auxiliary = neural::composite_inputs(required_inputs(world, options));
-  config.mlp = cache.mlp;
   config.mlp.outputs = options.integrator == Integrator::nao ? 1 : 3;
   if (config.encoding != neural::FeatureEncoding::gate) return neural::make_model(config);
   const WeldedMeshes meshes(world.scene);

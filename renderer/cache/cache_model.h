@@ -13,6 +13,9 @@ namespace gatelight::renderer {
 /// Inputs beside the position that the options and the scene require.
 neural::RequiredInputs required_inputs(const World& world, const RenderOptions& options);
 
+/// What options and bounds say of a model; inputs, outputs and a spacing that is chosen are left open.
+neural::ModelConfig model_config(const CacheOptions& cache, const Box& bounds);
+
 /// Throws BadConfiguration.
 std::shared_ptr<const neural::Model> make_cache_model(const World& world, const RenderOptions& options,
                                                       const CacheSetup& setup);

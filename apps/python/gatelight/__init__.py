@@ -59,11 +59,11 @@ def load(path, **options):
     return _gatelight.load(os.fspath(path), options)
 
 
-def _split(scene, options, more=()):
+def _split(scene, options):
     """The scene, loaded where it is a path, and the options of rendering."""
     if isinstance(scene, Scene):
         return scene, options
-    loading = {name: options.pop(name) for name in (*_LOADING, *more) if options.get(name) is not None}
+    loading = {name: options.pop(name) for name in _LOADING if options.get(name) is not None}
     for name in ("shutter", "fps", "threads"):
         if options.get(name) is not None and ("time" in loading or name == "threads"):
             loading[name] = options[name]
@@ -86,9 +86,7 @@ def frames(scene, size=(960, 540), preset="standard", spp=None, *, progress=None
     from frame to frame. A Scene was loaded with a time (time=0), and with fps and shutter for motion blur.
     """
     if not isinstance(scene, Scene) and options.get("time") is None:
-        blur = {name: options[name] for name in ("fps", "shutter", "threads") if options.get(name) is not None}
-        loading = {name: options.pop(name) for name in _LOADING if options.get(name) is not None}
-        scene = load(scene, time=0.0, **loading, **blur)
+        scene, options = _split(scene, options | {"time": 0.0})
     return Frames(scene, dict(size=size, preset=preset, spp=spp, **options), progress, stop)
 
 

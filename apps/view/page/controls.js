@@ -95,8 +95,7 @@ function makeDisplayControls(scene) {
   automatic.addEventListener("change", () => changes.send({exposure: automatic.checked ? "auto" : exposure.value}));
   parent.append(element("label", {className: "row wide"}, element("span", {textContent: "by itself"}), automatic));
   document.addEventListener("picture", event => { if (automatic.checked) exposure.set(event.detail.exposure); });
-  const curves = ["none", "filmic", "neutral", "aces", "agx"].map(name => [name, name]);
-  chooser(parent, "Curve", curves, flagOf(scene, "tonemap", "agx"), value => changes.send({tonemap: value}));
+  chooser(parent, "Curve", scene.curves.map(name => [name, name]), flagOf(scene, "tonemap", "agx"), value => changes.send({tonemap: value}));
   slider(parent, "White balance", {min: 2000, max: 12000, step: 50, value: Number(flagOf(scene, "white-balance", 6504)), text: x => `${x} K`, changed: value => {
     changes.send({"white-balance": String(value)});
   }});

@@ -49,6 +49,7 @@ TEST_F(Api, DescribesTheScene) {
   EXPECT_EQ(scene["given"]["size"], "40x24");
   EXPECT_FALSE(scene["glowing"].empty());
   EXPECT_GT(scene["radius"].get<float>(), 0.0f);
+  EXPECT_EQ(scene["curves"].front(), "none");
 }
 
 TEST_F(Api, GivesPicturesAndLayers) {

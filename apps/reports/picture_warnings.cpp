@@ -1,4 +1,4 @@
-#include "apps/reports/glare_warning.h"
+#include "apps/reports/picture_warnings.h"
 
 #include <fmt/format.h>
 
@@ -7,6 +7,8 @@
 #include <set>
 #include <vector>
 
+#include "apps/settings/picture_output.h"
+#include "renderer/image/half_overflow.h"
 #include "scene/light_names.h"
 
 namespace gatelight::apps {
@@ -67,6 +69,23 @@ std::string glare_warning(const renderer::Picture& picture, const renderer::Disp
         "corrects them",
         lights);
   return text;
+}
+
+std::string overflow_warning(const renderer::Picture& picture, std::span<const std::string> outputs,
+                             const renderer::ImageWriteOptions& image) {
+  const bool as_half =
+      !image.exr_float && std::any_of(outputs.begin(), outputs.end(), [](const auto& output) {
+        return output_format(output) == renderer::ImageFormat::exr;
+      });
+  if (!as_half) return "";
+  std::string layers;
+  for (const renderer::HalfOverflow& found : renderer::half_overflows(picture)) {
+    layers += fmt::format("{}{} in {}", layers.empty() ? "" : ", ", found.values,
+                          found.layer.empty() ? "the picture" : "'" + found.layer + "'");
+  }
+  if (layers.empty()) return "";
+  return fmt::format("values beyond 65504, the largest half, are stored as 65504: {}; --exr float keeps them",
+                     layers);
 }
 
 }  // namespace gatelight::apps

@@ -1,6 +1,7 @@
 #pragma once
-// A warning of pictures that are far too bright for a screen.
+// Warnings of pictures that a screen or a file cannot show as they are.
 
+#include <span>
 #include <string>
 
 #include "renderer/image/image_write.h"
@@ -13,9 +14,13 @@ namespace gatelight::apps {
 std::string lights_from_watts(const scene::Scene& scene);
 
 /// Empty unless more than a third of the pixels is shown as white, and an exposure that suits the picture is
-/// far lower.
-/// `lights` is lights_from_watts().
+/// far lower. `lights` is lights_from_watts().
 std::string glare_warning(const renderer::Picture& picture, const renderer::DisplayOptions& display,
                           float suitable_stops, const std::string& lights);
+
+/// A warning of values that an EXR of halves cannot hold, counted by layer; empty where there are none, or no
+/// such EXR among the outputs.
+std::string overflow_warning(const renderer::Picture& picture, std::span<const std::string> outputs,
+                             const renderer::ImageWriteOptions& image);
 
 }  // namespace gatelight::apps

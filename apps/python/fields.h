@@ -1,0 +1,109 @@
+#pragma once
+// Members of a part of a scene by their names in Python.
+
+#include <fmt/format.h>
+#include <pybind11/pybind11.h>
+
+#include <algorithm>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "apps/python/scene_parts.h"
+#include "apps/settings/parsing.h"
+#include "base/errors.h"
+#include "base/nearest_word.h"
+
+namespace gatelight::python {
+
+// The value of a member in Python.
+template <class Value>
+pybind11::object get_value(const ScenePointer&, const Value& value) {
+  return pybind11::cast(value);
+}
+pybind11::object get_value(const ScenePointer& scene, const Color& value);
+pybind11::object get_value(const ScenePointer& scene, const Vec3& value);
+pybind11::object get_value(const ScenePointer& scene, const scene::AlphaMode& value);
+pybind11::object get_value(const ScenePointer& scene, const scene::TextureSlot& value);
+
+/// A value of Python for a member.
+struct NewValue {
+  const char* name;  ///< of the member
+  pybind11::handle value;
+  apps::RealRange range;  ///< of numbers
+  const ScenePointer& scene;
+};
+// Each throws BadOption.
+void set_value(float& member, const NewValue& given);
+void set_value(bool& member, const NewValue& given);
+void set_value(Color& member, const NewValue& given);
+void set_value(Vec3& member, const NewValue& given);
+void set_value(std::string& member, const NewValue& given);
+void set_value(scene::AlphaMode& member, const NewValue& given);
+void set_value(scene::TextureSlot& member, const NewValue& given);
+
+template <class Object>
+struct Field {
+  const char* name;
+  const char* help;
+  std::function<pybind11::object(const ScenePointer&, const Object&)> get;
+  std::function<void(const ScenePointer&, Object&, pybind11::handle)> set;  ///< throws BadOption
+
+  /// A plain member. `range`: of numbers.
+  template <class Value>
+  Field(const char* its_name, Value Object::*member, const apps::RealRange& range, const char* its_help)
+      : name(its_name),
+        help(its_help),
+        get([member](const ScenePointer& scene, const Object& object) {
+          return get_value(scene, object.*member);
+        }),
+        set([its_name, member, range](const ScenePointer& scene, Object& object, pybind11::handle value) {
+          set_value(object.*member, {its_name, value, range, scene});
+        }) {}
+  /// One that has another form in Python.
+  Field(const char* its_name, std::function<pybind11::object(const Object&)> get_of,
+        std::function<void(Object&, pybind11::handle)> set_of, const char* its_help)
+      : name(its_name),
+        help(its_help),
+        get([get_of](const ScenePointer&, const Object& object) { return get_of(object); }),
+        set([set_of](const ScenePointer&, Object& object, pybind11::handle value) {
+          set_of(object, value);
+        }) {}
+};
+
+/// Throws BadOption, also for a name that is no member. `what`: the name of the class.
+template <class Object>
+void set_members(const std::vector<Field<Object>>& fields, const char* what, const ScenePointer& scene,
+                 Object& object, const pybind11::dict& keywords) {
+  std::vector<std::string> names;
+  for (const Field<Object>& field : fields) names.emplace_back(field.name);
+  for (const auto& [key, value] : keywords) {
+    const std::string name = pybind11::str(key);
+    const auto found = std::find(names.begin(), names.end(), name);
+    if (found == names.end())
+      throw BadOption({name, "", fmt::format("{} has no such member", what),
+                       fmt::format("one of gatelight.{}", what), did_you_mean(name, names)});
+    fields[static_cast<std::size_t>(found - names.begin())].set(scene, object, value);
+  }
+}
+
+/// Adds the members of the objects in a list of the scene, and their index.
+template <class PartOf, class Object>
+void add_fields(pybind11::class_<PartOf>& type, const std::vector<Field<Object>>& fields,
+                std::vector<Object> scene::Scene::*list) {
+  type.def_property_readonly("index", [](const PartOf& part) { return part.index; });
+  for (const Field<Object>& field : fields) {
+    type.def_property(
+        field.name,
+        [&field, list](const PartOf& part) {
+          return field.get(part.scene, (part.scene->source.*list)[part.index]);
+        },
+        [&field, list](const PartOf& part, const pybind11::object& value) {
+          field.set(part.scene, (part.scene->source.*list)[part.index], value);
+          part.scene->change();
+        },
+        field.help);
+  }
+}
+
+}  // namespace gatelight::python
