@@ -111,8 +111,7 @@ Option cryptomatte_option(std::vector<MatteKind>& kinds) {
   return read_by(
       "cryptomatte", kinds, "object,material",
       "Masks for compositing in EXR files, by the names of objects, of materials or of both: the layers of "
-      "the "
-      "Cryptomatte specification, six names a pixel; glass and mirrors are objects themselves",
+      "the Cryptomatte specification, six names a pixel; glass and mirrors are objects themselves",
       [](const auto& chosen) { return chosen.empty() ? OptionValue() : words_of(chosen); },
       [](const std::string& option, const std::string& text) { return read_words<MatteKind>(option, text); });
 }
