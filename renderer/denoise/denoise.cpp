@@ -63,7 +63,7 @@ std::optional<DenoisedRows> denoise_rows(Denoiser& denoiser, const NoisyPicture&
     if (whole || values.empty()) return std::move(values);
     return scale.scale(values, channels, picture.width, picture.height, top, rows.begin, rows.end);
   };
-  return DenoisedRows{scaled(image.color, 3), scaled(image.albedo, 3), scaled(image.alpha, 1)};
+  return DenoisedRows{scaled(image.color, 3), scaled(image.alpha, 1)};
 }
 
 std::optional<DenoisedRows> denoise(Denoiser& denoiser, const NoisyPicture& picture, FilterOptions options,
@@ -83,7 +83,6 @@ std::optional<DenoisedRows> denoise(Denoiser& denoiser, const NoisyPicture& pict
     const auto band = denoise_rows(denoiser, picture, {begin, end}, options, scale, report);
     if (!band) return std::nullopt;
     all.color.insert(all.color.end(), band->color.begin(), band->color.end());
-    all.albedo.insert(all.albedo.end(), band->albedo.begin(), band->albedo.end());
     all.alpha.insert(all.alpha.end(), band->alpha.begin(), band->alpha.end());
   }
   return all;

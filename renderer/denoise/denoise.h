@@ -22,9 +22,8 @@ struct NoisyPicture {
 
 /// Rows of a denoised picture.
 struct DenoisedRows {
-  std::vector<float> color;   ///< 3 floats a pixel, not negative
-  std::vector<float> albedo;  ///< the guide, filtered if the options want that; empty without guides
-  std::vector<float> alpha;   ///< 1 float a pixel, 0 to 1; empty where the noisy picture has none
+  std::vector<float> color;  ///< 3 floats a pixel, not negative
+  std::vector<float> alpha;  ///< 1 float a pixel, 0 to 1; empty where the noisy picture has none
 };
 
 /// The rows begin <= y < end of a scaled picture.
