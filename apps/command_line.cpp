@@ -215,7 +215,7 @@ int parse(int argc, const char* const* argv, bool runs, const RankGroup& group) 
     refuse_empty_words(root);
     for (const Subcommand& subcommand : subcommands) {
       if (!subcommand.app->parsed()) continue;
-      if (!group.ranks.is_single() && !subcommand.of_ranks) {
+      if (!group.is_alone() && !subcommand.of_ranks) {
         throw BadOption(fmt::format("'{0}' runs in one process: start it by 'gatelight {0}'",
                                     subcommand.app->get_name()));
       }

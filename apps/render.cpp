@@ -36,10 +36,10 @@ int run_render(RenderSettings settings, const std::vector<std::string>& command,
   set_json_messages(settings.progress == ProgressMode::json);
   apply_display_defaults(settings);
   complete_settings(settings);
-  if (!group.ranks.first()) settings.quiet = true;
+  if (!group.writes()) settings.quiet = true;
   check_inputs(settings);
-  if (group.ranks.first()) check_outputs(settings);
-  set_log_level(settings.quiet, settings.verbose && group.ranks.first());
+  if (group.writes()) check_outputs(settings);
+  set_log_level(settings.quiet, settings.verbose && group.writes());
   install_signal_handlers();
   // Errors without a file name get the scene's name.
   try {

@@ -4,7 +4,6 @@
 
 #include "apps/job/frame_settings.h"
 #include "apps/job/sequence_exposure.h"
-#include "renderer/distributed/ranks.h"
 #include "renderer/settings/resolved_options.h"
 
 namespace gatelight::apps {
@@ -13,20 +12,19 @@ FrameSequence::FrameSequence(const RenderSettings& settings, const scene::Scene&
                              bool displayed, renderer::Ranks& ranks)
     : settings_(settings),
       show_time_(std::move(show_time)),
-      ranks_(ranks),
       needs_exposure_(displayed && !settings.exposure),
       sample_(sampled_frames(last_frame_of_animation(settings, scene))),
-      renderer_(build(scene)) {
+      renderer_(build(scene, ranks)) {
   shown_ = 0;
   choose_sky();
   move_to(0);
   if (!needs_exposure_) choose_integrator();
 }
 
-renderer::Renderer FrameSequence::build(const scene::Scene& scene) {
+renderer::Renderer FrameSequence::build(const scene::Scene& scene, renderer::Ranks& ranks) {
   show_time(0);
   const renderer::RenderOptions options = settings_of_frame(settings_, 0).render;
-  return {scene, needs_exposure_ ? measuring_options(options) : options, ranks_};
+  return {scene, needs_exposure_ ? measuring_options(options) : options, ranks};
 }
 
 /// No sky where what glows shows the surfaces in one of the frames.
@@ -96,8 +94,7 @@ void FrameSequence::move_to(int frame) {
 }
 
 void FrameSequence::show(int frame) {
-  // Rank 0 makes the layers of motion.
-  for (const int other : ranks_.first() ? frames_of_motion(settings_, frame) : std::vector<int>{}) {
+  for (const int other : frames_of_motion(settings_, frame)) {
     if (renderer_.knows_frame(other)) continue;
     show_time(other);
     renderer_.note_frame(other, camera_of_frame(settings_, other));

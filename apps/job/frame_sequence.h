@@ -44,7 +44,7 @@ class FrameSequence {
   void write(const std::string& file) const { renderer_.write_frame(file, settings_.exposure); }
 
  private:
-  renderer::Renderer build(const scene::Scene& scene);
+  renderer::Renderer build(const scene::Scene& scene, renderer::Ranks& ranks);
   void choose_sky();
   void choose_integrator();
   void show_time(int frame);
@@ -52,7 +52,6 @@ class FrameSequence {
 
   RenderSettings settings_;
   ShowTime show_time_;
-  renderer::Ranks& ranks_;
   bool needs_exposure_;
   std::vector<int> sample_;
   std::optional<int> shown_;  ///< by the renderer

@@ -53,7 +53,7 @@ float sequence_exposure(renderer::Renderer& renderer, const std::vector<int>& fr
   for (const int frame : frames) {
     show(frame);
     const renderer::Picture picture = renderer.render(callbacks);
-    if (picture.layers.empty()) continue;  // rank 0 has it
+    if (picture.layers.empty()) continue;  // another process has it
     if (const std::optional<float> suitable = renderer::exposure_of_light(picture))
       stops.push_back(*suitable);
   }

@@ -16,8 +16,8 @@ renderer::RenderOptions measuring_options(renderer::RenderOptions options);
 /// median; 0 without any.
 float common_exposure(std::vector<float> stops);
 
-/// common_exposure() of the frames that are not black, for rank 0. `renderer` has measuring_options(); `show`
-/// shows it a frame.
+/// common_exposure() of the frames that are not black, where the pictures are. `renderer` has
+/// measuring_options(); `show` shows it a frame.
 float sequence_exposure(renderer::Renderer& renderer, const std::vector<int>& frames,
                         const std::function<void(int frame)>& show, const renderer::Callbacks& callbacks);
 

@@ -53,7 +53,7 @@ RankGroup own_group(int groups, const RankGroup& all) {
                                    all.name_of(0)));
   }
   if (groups == 1) return all;
-  if (all.ranks.is_single())
+  if (all.is_alone())
     throw BadOption({"frame-groups", "", "one process is one group",
                      "several ranks of gatelight-mpi, by mpirun or srun"});
   if (groups > all.ranks.count())

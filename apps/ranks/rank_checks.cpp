@@ -59,12 +59,8 @@ int rank_of_isa(const std::string& name) {
 
 }  // namespace
 
-std::string name_of_rank(int rank, int count, const std::string& host) {
-  return fmt::format("rank {} of {} ({})", rank, count, host);
-}
-
 void share_machines(RenderSettings& settings, const RankGroup& group) {
-  if (group.ranks.is_single()) return;
+  if (group.is_alone()) return;
   renderer::RenderOptions& options = settings.render;
   if (!settings.given.contains("threads")) {
     const int processors = std::max(static_cast<int>(std::thread::hardware_concurrency()), 1);
@@ -86,7 +82,7 @@ void share_machines(RenderSettings& settings, const RankGroup& group) {
 }
 
 void expect_equal_ranks(const RenderSettings& settings, const scene::Scene& scene, const RankGroup& group) {
-  if (group.ranks.is_single()) return;
+  if (group.is_alone()) return;
   const std::string mine = identity(settings, scene);
   renderer::Packer packer;
   packer.add_all(std::span(mine));
@@ -109,7 +105,7 @@ void expect_equal_ranks(const RenderSettings& settings, const scene::Scene& scen
 std::size_t require_memory_of_ranks(const RenderSettings& settings, const scene::Scene& scene,
                                     const RankGroup& group) {
   const renderer::MemoryEstimate need = renderer::estimate_memory(scene, settings.render);
-  if (group.ranks.is_single()) return need.total();
+  if (group.is_alone()) return need.total();
   struct Machine {
     std::uint64_t more, left;
   };

@@ -20,7 +20,6 @@
 #include "apps/terminal/signals.h"
 #include "apps/terminal/terminal.h"
 #include "base/errors.h"
-#include "renderer/distributed/collectives.h"
 
 namespace gatelight::apps {
 namespace {
@@ -73,8 +72,7 @@ class FrameRun {
     std::set<int> existing;
     if (!settings_.skip_existing) return existing;
     for (const int frame : frames) {
-      if (renderer::agreed(call_.all.ranks, are_there(settings_of_frame(settings_, frame).outputs)))
-        existing.insert(frame);
+      if (call_.all.agreed(are_there(settings_of_frame(settings_, frame).outputs))) existing.insert(frame);
     }
     console_.note_skipped(existing.size(), frames.size());
     return existing;
@@ -159,7 +157,7 @@ class FrameRun {
       } catch (const DeviceLost&) {
         throw;
       } catch (const std::exception&) {
-        if (!call_.group.ranks.is_single()) throw;  // the others wait for this one
+        if (!call_.group.is_alone()) throw;  // the others wait for this one
         note_failed_frame(frames[i]);
       }
       if (number != 0) break;
@@ -178,12 +176,12 @@ class FrameRun {
     sequence.show(frame);
     console_.warn(scene_.warnings);
     console_.warn(sequence.renderer().statistics().warnings);
-    if (const int number = signal_of(call_.group); number != 0) return number;
+    if (const int number = call_.group.signal(); number != 0) return number;
     renderer::Picture picture = sequence.render(frame, call_.maker.callbacks(sequence.renderer()));
     // An unfinished frame would look like a finished one.
-    if (const int number = signal_of(call_.group); number != 0) return number;
+    if (const int number = call_.group.signal(); number != 0) return number;
     call_.maker.finish(std::move(picture), sequence.renderer().statistics());
-    if (!call_.group.ranks.first()) return 0;
+    if (!call_.group.writes()) return 0;
     write_state(sequence, frame, last);
     const RunReport& report = console_.report;
     if (!console_.progress.frame_done(frame, summary_json(settings, report)) && !console_.quiet()) {
@@ -194,7 +192,7 @@ class FrameRun {
   }
 
   void make_folders(int frame) const {
-    if (!call_.group.ranks.first()) return;
+    if (!call_.group.writes()) return;
     for (const std::string& output : settings_.outputs) make_folders_of_frame(output, frame);
     for (const std::string& file : {settings_.stats, settings_.render.cache.cache_out})
       make_folders_of_frame(file, frame);
@@ -225,28 +223,28 @@ class FrameRun {
     const RankGroup& all = call_.all;
     if (signal != 0) all.stop_others(signal);
     FrameResults mine;
-    // The ranks of a group have the same results, and rank 0 has printed its warnings.
-    if (call_.group.ranks.first()) {
+    // The ranks of a group have the same results, and the first of all has printed its warnings.
+    if (call_.group.writes()) {
       mine = {.signal = signal, .done = done};
       mine.failure = described(failure_);
       const std::set<std::string>& printed = console_.printed_warnings();
-      if (!all.ranks.first()) mine.warnings = {printed.begin(), printed.end()};
+      if (!all.writes()) mine.warnings = {printed.begin(), printed.end()};
     }
     const FrameResults of_all = joined_results(all.ranks, mine);
     if (of_all.signal != 0) return note_stop(of_all.signal, of_all.done, count);
-    if (all.ranks.first()) {
+    if (all.writes()) {
       console_.warn(of_all.warnings);
       report(count, seconds);
     }
-    renderer::agreed(all.ranks, 0);  // what follows may end all ranks: rank 0 has reported by now
-    failure_ = nullptr;              // it is reported here
+    all.wait_for_writer();  // what follows may end all ranks
+    failure_ = nullptr;     // it is reported here
     if (!of_all.failure) return kDone;
     print_failure(*of_all.failure);
     return of_all.failure->code;
   }
 
   void report(std::size_t count, double seconds) {
-    if (!call_.group.ranks.first()) return;
+    if (!call_.group.writes()) return;
     if (console_.progress.done({{"frames", count}, {"seconds", seconds}}) || console_.quiet()) return;
     print_status(frames_summary(count, seconds, console_.report));
   }

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -14,15 +13,9 @@
 #include "apps/terminal/log.h"
 #include "apps/terminal/signals.h"
 #include "apps/terminal/terminal.h"
-#include "renderer/distributed/collectives.h"
 #include "renderer/image/auto_exposure.h"
 
 namespace gatelight::apps {
-
-int signal_of(const RankGroup& group) {
-  const std::vector<int> signals = renderer::one_of_each(group.ranks, stop_signal());
-  return *std::max_element(signals.begin(), signals.end());
-}
 
 PictureMaker::PictureMaker(Console& console, const RankGroup& group, std::string bright_lights)
     : console_(console), group_(group), bright_lights_(std::move(bright_lights)) {}
@@ -47,10 +40,10 @@ renderer::Callbacks PictureMaker::callbacks(const renderer::Renderer& renderer) 
 int PictureMaker::finish(renderer::Picture picture, const renderer::RenderStatistics& statistics) {
   RunReport& report = console_.report;
   report.statistics = statistics;
-  report.signal = signal_of(group_);
+  report.signal = group_.signal();
   console_.warn(warnings_of(statistics));
-  if (group_.ranks.first()) write_results(std::move(picture));
-  renderer::agreed(group_.ranks, 0);  // what follows may end all ranks: rank 0 has written by now
+  if (group_.writes()) write_results(std::move(picture));
+  group_.wait_for_writer();  // what follows may end all of the group
   require_good_end(statistics, true);
   if (failed_output_) std::rethrow_exception(failed_output_);
   return report.signal == 0 ? kDone : kSignalBase + report.signal;

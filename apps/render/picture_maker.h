@@ -42,7 +42,4 @@ class PictureMaker {
   std::exception_ptr failed_output_;  ///< the last failure of a checkpoint or cache file
 };
 
-/// The signal that some rank of the group received; 0: none. All ranks call it.
-int signal_of(const RankGroup& group);
-
 }  // namespace gatelight::apps

@@ -42,11 +42,11 @@ int render(RenderSettings settings, const std::vector<std::string>& command, con
            const RankGroup& all) {
   const Clock::time_point start = Clock::now();
   share_machines(settings, all);
-  Console console(settings, all.ranks.first());
+  Console console(settings, all.writes());
   console.report.command = command;
   console.report.hosts = group.hosts;
   // A scene may take long to load.
-  if (group.ranks.first() && settings.render.denoise.denoiser == renderer::DenoiserKind::oidn)
+  if (group.writes() && settings.render.denoise.denoiser == renderer::DenoiserKind::oidn)
     renderer::load_oidn(settings.render.denoise.library);
   console.warn(unused_output_flags(settings));
   console.progress.phase("load");
@@ -55,11 +55,11 @@ int render(RenderSettings settings, const std::vector<std::string>& command, con
   scene::Scene scene = file.load();
   console.report.load_seconds = seconds_since(load_start);
   note_loaded(console, settings, scene);
-  if (const int number = signal_of(group); number != 0)
+  if (const int number = group.signal(); number != 0)
     return note_signal_before_picture(console, number, settings.scene);
   expect_equal_ranks(settings, scene, all);
   const std::size_t memory = require_memory_of_ranks(settings, scene, all);
-  log_detail(fmt::format("memory needed{}, estimated: {}", all.ranks.is_single() ? "" : " by each rank",
+  log_detail(fmt::format("memory needed{}, estimated: {}", all.is_alone() ? "" : " by each rank",
                          format_bytes(memory)));
   PictureMaker maker(console, group, lights_from_watts(scene));
   return settings.frames.range ? render_frames(settings, file, scene, {console, maker, group, all})

@@ -5,7 +5,6 @@
 #include "apps/settings/camera_names.h"
 #include "apps/settings/picture_output.h"
 #include "apps/terminal/errors.h"
-#include "renderer/distributed/collectives.h"
 #include "renderer/settings/resolved_options.h"
 
 namespace gatelight::apps {
@@ -21,8 +20,8 @@ int render_stills(const RenderSettings& settings, const scene::Scene& scene, con
   std::vector<RenderSettings> pictures = pictures_of(settings, scene);
   if (settings.skip_existing) {
     const std::size_t count = pictures.size();
-    std::erase_if(pictures, [&ranks = all.ranks](const RenderSettings& picture) {
-      return renderer::agreed(ranks, are_there(picture.outputs));
+    std::erase_if(pictures, [&ranks = all](const RenderSettings& picture) {
+      return ranks.agreed(are_there(picture.outputs));
     });
     console.note_skipped(count - pictures.size(), count);
     if (pictures.empty()) return kDone;
@@ -41,7 +40,7 @@ int render_stills(const RenderSettings& settings, const scene::Scene& scene, con
     if (picture.render.choose_integrator) renderer::use_integrator(picture.render, renderer.integrator());
     maker.begin(picture, start);
     console.warn(renderer.statistics().warnings);
-    if (const int number = signal_of(group); number != 0)
+    if (const int number = group.signal(); number != 0)
       return note_signal_before_picture(console, number, picture.scene);
     renderer::Picture made = renderer.render(maker.callbacks(renderer));
     code = maker.finish(std::move(made), renderer.statistics());

@@ -1,0 +1,33 @@
+#include "apps/ranks/rank_group.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "apps/terminal/signals.h"
+#include "renderer/distributed/collectives.h"
+
+namespace gatelight::apps {
+
+std::string name_of_rank(int rank, int count, const std::string& host) {
+  return fmt::format("rank {} of {} ({})", rank, count, host);
+}
+
+std::string RankGroup::name_of(int rank) const {
+  return name_of_rank(rank, ranks.count(), hosts[static_cast<std::size_t>(rank)]);
+}
+
+bool RankGroup::agreed(bool mine) const {
+  return renderer::agreed(ranks, mine);
+}
+
+void RankGroup::wait_for_writer() const {
+  renderer::agreed(ranks, 0);
+}
+
+int RankGroup::signal() const {
+  const std::vector<int> signals = renderer::one_of_each(ranks, stop_signal());
+  return *std::max_element(signals.begin(), signals.end());
+}
+
+}  // namespace gatelight::apps
