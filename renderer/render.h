@@ -131,7 +131,8 @@ class Renderer {
   /// Aov::motion and Aov::motion_next. Nothing is built: the renderer needs scene_moved() after it. Where
   /// these frames are not known there is no motion.
   void note_frame(int frame, const CameraOptions& camera);
-  /// Whether they are known; those of the last frames that were rendered with these layers are.
+  /// Whether they are known; those of the last frames that were rendered with these layers are. Where another
+  /// process makes the layers, they need not be.
   bool knows_frame(int frame) const;
   /// The present frame, whose number keys its random numbers. It depends on scene, options and the cache
   /// before it, which it trains further, as much as the light has changed. No checkpoint is read or written.

@@ -3,17 +3,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <bit>
 #include <functional>
+#include <limits>
 #include <utility>
 
 #include "base/clock.h"
 #include "base/errors.h"
+#include "base/parallel/loops.h"
 #include "base/parallel/schedule.h"
 #include "base/parallel/team.h"
 #include "renderer/cache/cache_backend.h"
 #include "renderer/cache/cache_model.h"
-#include "renderer/cache/cache_query.h"
 #include "renderer/cache/light_change.h"
 #include "renderer/cache/occlusion_records.h"
 #include "renderer/cache/radiance_records.h"
@@ -50,6 +52,29 @@ void check_memory(const scene::Scene& scene, const RenderOptions& options, const
                  estimate_memory(scene, options).total() + cache, cache);
 }
 
+/// Answers in the picture's units; `outputs` for each point. Those that are negative or not finite become
+/// zero; returns the number of points that have one.
+std::uint64_t convert_answers(const AnswerUnits& units, std::size_t outputs, std::span<float> answers) {
+  constexpr float kGreatest = std::numeric_limits<float>::max();
+  std::atomic<std::uint64_t> negative = 0;
+  for_each_range(answers.size() / outputs, 4096, [&](std::size_t begin, std::size_t end) {
+    std::uint64_t here = 0;
+    for (std::size_t i = begin; i < end; ++i) {
+      bool below = false;
+      for (float& a : answers.subspan(outputs * i, outputs)) {
+        if (!(a >= 0.0f && a <= kGreatest)) {
+          below = true;
+          a = 0.0f;
+        }
+        a = std::min(a * units.scale, units.greatest);
+      }
+      if (below) ++here;
+    }
+    if (here > 0) negative += here;
+  });
+  return negative;
+}
+
 bool counts_needed(const RenderOptions& options) {
   return options.cache.candidates > 1 || has(options.aovs, Aov::training_count);
 }
@@ -59,8 +84,8 @@ bool counts_needed(const RenderOptions& options) {
 CacheSession::CacheSession(const World& world, const Camera& camera, const PixelRect& region,
                            const RenderOptions& options, const CacheSetup* setup,
                            const std::function<void(const neural::Model&)>& expect_model,
-                           const RankTiles* ranks)
-    : options_(options), ranks_(ranks && !ranks->ranks.is_single() ? ranks : nullptr) {
+                           RecordExchange exchange)
+    : options_(options), exchange_(std::move(exchange)) {
   check_options(options);
   Clock::time_point start = Clock::now();
   if (setup) {
@@ -68,7 +93,7 @@ CacheSession::CacheSession(const World& world, const Camera& camera, const Pixel
   } else {
     const schedule::Section section("scout");
     Scouting scouting;
-    Team::run([&](Team&) { scouting.add(world, camera, region, options, ranks_); });
+    Team::run([&](Team&) { scouting.add(world, camera, region, options, exchange_); });
     ScoutReport report = scouting.report(world.scene, options);
     setup_ = std::move(report.setup);
     scout_rays_ = report.rays;
@@ -108,9 +133,9 @@ CacheSession::CacheSession(const World& world, const Camera& camera, const Pixel
 }
 
 CacheSession::CacheSession(const World& world, const Camera& camera, const PixelRect& region,
-                           const RenderOptions& options, CacheSession&& earlier, const RankTiles* ranks)
+                           const RenderOptions& options, CacheSession&& earlier, RecordExchange exchange)
     : options_(options),
-      ranks_(ranks && !ranks->ranks.is_single() ? ranks : nullptr),
+      exchange_(std::move(exchange)),
       setup_(std::move(earlier.setup_)),
       trainer_(std::move(earlier.trainer_)),
       steps_(earlier.steps_),
@@ -149,7 +174,7 @@ void CacheSession::connect(const World& world, const Camera& camera, const Pixel
 CacheSession::~CacheSession() = default;
 
 void CacheSession::start_anew(bool keeps_samples) {
-  Snapshot start{{.setup = setup_}, first_statistics_, 0, 0, scout_rays_, {}};
+  Snapshot start{{.setup = setup_}, first_statistics_, {}, scout_rays_, {}};
   start.state.model = neural::initial_state(model(), trainer_->options());
   start.state.triangle_counts.assign(counts_.values().size(), 0);
   if (keeps_samples) start.state.samples = samples_;
@@ -164,9 +189,12 @@ std::uint64_t CacheSession::answer(const SurfacePoints& points, std::span<float>
 
 std::uint64_t CacheSession::ask(neural::QueryPrecision precision, const SurfacePoints& points,
                                 std::span<float> answers) const {
-  if (!dark_) return ask_cache(*trainer_, precision, records_->units(setup_), points, answers);
-  std::fill(answers.begin(), answers.end(), 0.0f);
-  return 0;
+  if (dark_) {
+    std::fill(answers.begin(), answers.end(), 0.0f);
+    return 0;
+  }
+  trainer_->query(points.batch(), {.precision = precision, .range = neural::OutputRange::raw}, answers);
+  return convert_answers(records_->units(setup_), outputs(), answers);
 }
 
 void CacheSession::look_at_light(const RecordBatch& group) {
@@ -207,7 +235,7 @@ void CacheSession::import_state(const CacheState& state) {
 }
 
 CacheSession::Snapshot CacheSession::snapshot() const {
-  return {export_state(), statistics_, paths_of_rank_, record_bytes_, rays(), last_losses_};
+  return {export_state(), statistics_, exchange_.share, rays(), last_losses_};
 }
 
 void CacheSession::return_to(const Snapshot& snapshot) {
@@ -217,8 +245,7 @@ void CacheSession::return_to(const Snapshot& snapshot) {
   abandoned.subtract(snapshot.rays);
   abandoned_rays_.add(abandoned);
   statistics_ = snapshot.statistics;
-  paths_of_rank_ = snapshot.paths_of_rank;
-  record_bytes_ = snapshot.record_bytes;
+  exchange_.share = snapshot.share;
   last_losses_ = snapshot.last_losses;
 }
 

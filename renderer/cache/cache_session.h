@@ -9,6 +9,7 @@
 #include "renderer/cache/cache_state.h"
 #include "renderer/cache/cached_paths.h"
 #include "renderer/cache/record_batch.h"
+#include "renderer/cache/record_exchange.h"
 #include "renderer/cache/triangle_counts.h"
 
 namespace gatelight::renderer {
@@ -19,17 +20,16 @@ class CacheSession {
   /// session. All functions run in the caller's arena. A setup from a file decides the size of the model:
   /// `expect_model` is called before memory is allocated, and throws where the file has other tensors. Throws
   /// BadConfiguration, Unavailable.
-  /// `ranks`: the ranks that train together, which must outlive the session; null for one. All ranks call the
-  /// same functions.
+  /// `exchange`: with the processes that train together, all of which call the same functions.
   CacheSession(const World& world, const Camera& camera, const PixelRect& region,
                const RenderOptions& options, const CacheSetup* setup = nullptr,
                const std::function<void(const neural::Model&)>& expect_model = {},
-               const RankTiles* ranks = nullptr);
+               RecordExchange exchange = {});
   /// Goes on with the cache of another view or time of the same scene, which it takes over. The samples of
   /// the picture begin anew, and the guard forgets what it has seen. As long as the cache answers for another
   /// light than the records show, paths are traced to their ends, and samples of the picture end nowhere.
   CacheSession(const World& world, const Camera& camera, const PixelRect& region,
-               const RenderOptions& options, CacheSession&& earlier, const RankTiles* ranks = nullptr);
+               const RenderOptions& options, CacheSession&& earlier, RecordExchange exchange = {});
   ~CacheSession();
 
   /// Callbacks of training, called between groups of steps.
@@ -39,8 +39,7 @@ class CacheSession {
     std::function<void()> after_group;  ///< a state exported here resumes with the same bits
     /// Receives the paths of a group that are samples of the picture too.
     std::function<void(const RecordBatch& group)> samples;
-    /// Receives the work of each rank since the last call, about once a second. May redistribute the shares.
-    std::function<void(const std::vector<RankWork>& work)> rebalance;
+    RecordExchange::Rebalance rebalance;
   };
   /// Trains until steps() reaches `steps`, or until it is stopped or out of time. The paths of a group of
   /// steps are traced together; the callbacks are called between groups. Gives the same bits for any number
@@ -67,7 +66,7 @@ class CacheSession {
   struct Snapshot {
     CacheState state;
     CacheStatistics statistics;
-    std::uint64_t paths_of_rank = 0, record_bytes = 0;
+    RecordExchange::Share share;
     RayCounts rays;
     std::vector<double> last_losses;
   };
@@ -97,12 +96,9 @@ class CacheSession {
   std::uint64_t outputs() const { return model().config.mlp.outputs; }
   /// Whether several threads may call answer() at a time.
   bool answers_threads() const { return trainer_->backend().answers_threads(); }
-  /// Rays of scouting and training, of this rank.
+  /// Rays of scouting and training that were counted here.
   RayCounts rays() const;
-  /// Paths of training that this rank has traced.
-  std::uint64_t paths_of_rank() const { return paths_of_rank_; }
-  /// Bytes of the records that this rank sent to others.
-  std::uint64_t record_bytes() const { return record_bytes_; }
+  const RecordExchange& exchange() const { return exchange_; }
   /// All statistics of the cache except those of rendering.
   const CacheStatistics& statistics() const { return statistics_; }
 
@@ -111,9 +107,9 @@ class CacheSession {
   struct Group {
     RecordRequest request;
     RecordBatch records;
-    RankWork work;   ///< of this rank
-    RayCounts rays;  ///< of this rank
-    std::unique_ptr<Ranks::AllGather> coming;
+    RankWork work;   ///< done here
+    RayCounts rays;  ///< traced here
+    RecordExchange::Coming coming;
     std::uint64_t steps() const { return request.batches; }
     std::uint64_t samples() const { return records.starts.samples.size(); }
   };
@@ -125,24 +121,20 @@ class CacheSession {
   void trace_and_learn(Group* next, Group* learning, const Watch& watch, Team& team);
   void train(std::uint64_t steps, const Watch& watch, Team& team);
   void finish(Group& group);
-  /// Takes the records of all ranks.
+  /// Takes the records that are traced elsewhere.
   void receive(Group& group, const Watch& watch);
   void learn(const RecordBatch& group, std::uint64_t batch, Team& team);
   /// Compares records that are not learned yet with the answers.
   void look_at_light(const RecordBatch& group);
-  /// ask_cache(); no light where the world has none, which a network only comes near to.
+  /// answer() in any precision. No light where the world has none, which a network only comes near to.
   std::uint64_t ask(neural::QueryPrecision precision, const SurfacePoints& points,
                     std::span<float> answers) const;
-  void rebalance(const Watch& watch);
   void look_at_answers(const RecordBatch& group);
 
   const RenderOptions& options_;
   const scene::Scene* scene_ = nullptr;
   bool dark_ = false;  ///< there is no light to learn
-  const RankTiles* ranks_;
-  std::vector<RankWork> work_;  ///< of the ranks, since the last rebalance
-  std::uint64_t paths_of_rank_ = 0;
-  std::uint64_t record_bytes_ = 0;
+  RecordExchange exchange_;
   CacheSetup setup_;
   std::unique_ptr<neural::Trainer> trainer_;
   PointInputs inputs_;

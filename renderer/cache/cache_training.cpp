@@ -11,10 +11,7 @@
 #include "base/clock.h"
 #include "base/parallel/schedule.h"
 #include "base/parallel/team.h"
-#include "renderer/cache/cache_query.h"
 #include "renderer/cache/cache_session.h"
-#include "renderer/cache/record_exchange.h"
-#include "renderer/distributed/collectives.h"
 
 namespace gatelight::renderer {
 namespace {
@@ -25,9 +22,6 @@ constexpr std::size_t kLossWindow = 64;
 /// Records whose paths are traced together. Paths of several batches are more coherent, and threads wait less
 /// often (5 to 10 % faster than single batches of 16384).
 constexpr std::uint64_t kTracedRecords = 1 << 16;
-
-/// Work of the slowest rank after which the shares of the ranks are adjusted.
-constexpr double kRebalanceSeconds = 0.5;
 
 }  // namespace
 
@@ -53,7 +47,7 @@ RecordRequest CacheSession::request(std::uint64_t step, std::uint64_t count,
   request.most_records = records;
   request.batches = count;
   request.first_sample = first_sample;
-  request.ranks = ranks_;
+  request.counts_choice = exchange_.counts_common_rays();
   if (options_.cache.candidates > 1) request.counts = counts_.values();
   return request;
 }
@@ -97,6 +91,7 @@ void CacheSession::begin(std::uint64_t step, std::uint64_t count, std::uint64_t 
   group.request = request(step, count, first_sample);
   group.rays = records_->rays();  // before it
   records_->begin(group.request, group.records);
+  exchange_.choose_blocks(group.records);
   statistics_.train_trace_seconds += seconds_since(start);
 }
 
@@ -114,28 +109,15 @@ void CacheSession::finish(Group& group) {
   const double seconds = seconds_since(begin);
   statistics_.train_query_seconds += answered;
   statistics_.train_trace_seconds += seconds - answered;
-  if (!ranks_) return;
   group.work.seconds += seconds;
-  Bytes packed = pack_records(group.records, *ranks_, group.work);
-  record_bytes_ += packed.size();
-  group.coming = ranks_->ranks.begin_gather(std::move(packed));
+  group.coming = exchange_.send(group.records, group.work);
 }
 
 void CacheSession::receive(Group& group, const Watch& watch) {
   const Clock::time_point begin = Clock::now();
   RecordBatch& records = group.records;
   unlearned_rays_.subtract(group.rays);
-  for (std::size_t b = 0; b < records.starts.blocks(); ++b) {
-    if (records.mine(b)) paths_of_rank_ += records.starts.offsets[b + 1] - records.starts.offsets[b];
-  }
-  if (group.coming) {
-    const std::vector<RankWork> work = unpack_records(group.coming->wait(), *ranks_, records);
-    work_.resize(work.size());
-    for (std::size_t r = 0; r < work.size(); ++r) {
-      work_[r].seconds += work[r].seconds;
-      work_[r].rays += work[r].rays;
-    }
-  }
+  exchange_.receive(std::move(group.coming), records);
   records_->split(group.request, records);
   statistics_.training_paths += records.paths_traced;
   samples_ += group.samples();
@@ -147,8 +129,9 @@ void CacheSession::receive(Group& group, const Watch& watch) {
 
 void CacheSession::trace_and_learn(Group* next, Group* learning, const Watch& watch, Team& team) {
   std::atomic<double> traced = 0.0;  // by all threads
-  // Ranks exchange records while they trace the next ones.
-  if (learning && !ranks_) receive(*learning, watch);
+  // Records that come from elsewhere are received while the next ones are traced.
+  const bool alone = exchange_.is_alone();
+  if (learning && alone) receive(*learning, watch);
   const std::size_t blocks = next ? next->records.starts.blocks() : 0;
   team.beside(
       static_cast<std::uint32_t>(blocks),
@@ -159,7 +142,7 @@ void CacheSession::trace_and_learn(Group* next, Group* learning, const Watch& wa
       },
       [&] {
         if (!learning) return;
-        if (ranks_) receive(*learning, watch);
+        if (!alone) receive(*learning, watch);
         for (std::uint64_t batch = 0; batch < learning->steps(); ++batch) {
           counts_.add(learning->records, batch, steps_);
           learn(learning->records, batch, team);
@@ -172,14 +155,6 @@ void CacheSession::trace_and_learn(Group* next, Group* learning, const Watch& wa
   unlearned_rays_.add(rays);
   next->work = {traced / tbb::this_task_arena::max_concurrency(), rays.camera + rays.bounce + rays.shadow};
   statistics_.train_trace_seconds += next->work.seconds;
-}
-
-void CacheSession::rebalance(const Watch& watch) {
-  const auto longer = [](const RankWork& a, const RankWork& b) { return a.seconds < b.seconds; };
-  const auto longest = std::max_element(work_.begin(), work_.end(), longer);
-  if (!watch.rebalance || longest == work_.end() || longest->seconds < kRebalanceSeconds) return;
-  watch.rebalance(work_);
-  work_.clear();
 }
 
 void CacheSession::train(std::uint64_t steps, const Watch& watch) {
@@ -198,8 +173,7 @@ void CacheSession::train(std::uint64_t steps, const Watch& watch, Team& team) {
     const double limit = options_.cache.train_seconds;
     if (watch.stop && watch.stop()) return true;
     if (limit <= 0.0) return false;
-    const bool over = seconds_since(start) >= limit;
-    return ranks_ ? agreed(ranks_->ranks, over) : over;
+    return exchange_.agreed(seconds_since(start) >= limit);
   };
   const auto note_seconds = [&] {
     CacheStatistics& s = statistics_;
@@ -221,7 +195,7 @@ void CacheSession::train(std::uint64_t steps, const Watch& watch, Team& team) {
     if (learning) {
       synchronize();  // the steps of a device
       look_at_answers(learning->records);
-      rebalance(watch);
+      exchange_.rebalance(watch.rebalance);
       note_seconds();
       if (watch.progress) watch.progress(static_cast<int>(steps_), wanted, statistics_.loss);
       if (watch.after_group) watch.after_group();

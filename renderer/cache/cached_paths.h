@@ -51,7 +51,6 @@ struct PathPlan {
 struct PathStart {
   CameraSample sample;
   bool to_its_end = false;  ///< regardless of end_after_records
-  bool on_surface = false;  ///< not at the camera
 };
 
 /// The options that these paths read.

@@ -1,6 +1,5 @@
 #include "renderer/cache/occlusion_records.h"
 
-#include "renderer/cache/record_exchange.h"
 #include "renderer/transport/occlusion.h"
 
 namespace gatelight::renderer {
@@ -16,11 +15,9 @@ OcclusionRecords::OcclusionRecords(const World& world, const TrainingPoints& poi
       inputs_(inputs) {}
 
 void OcclusionRecords::begin(const RecordRequest& request, RecordBatch& batch) {
-  RayCounts by_all;  // all ranks trace them, and one counts them
-  const bool counting = !request.ranks || request.ranks->ranks.first();
+  RayCounts uncounted;
   points_.choose(request.step, request.points, false, request.counts, batch.starts,
-                 counting ? start_rays_ : by_all);
-  if (request.ranks) choose_tracers(batch, *request.ranks);
+                 request.counts_choice ? start_rays_ : uncounted);
   needs_hits_ = batch.starts.hits.empty();
   batch.starts.hits.resize(batch.starts.starts.size());
   batch.paths.assign(batch.starts.blocks(), PathBatch(inputs_));

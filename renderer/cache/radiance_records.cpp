@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "base/parallel/loops.h"
-#include "renderer/cache/record_exchange.h"
 #include "renderer/settings/resolved_options.h"
 
 namespace gatelight::renderer {
@@ -41,12 +40,10 @@ RecordRequest RadianceRecords::request(const CacheSetup& setup, std::uint64_t st
 }
 
 void RadianceRecords::begin(const RecordRequest& request, RecordBatch& batch) {
-  RayCounts by_all;  // all ranks trace them, and one counts them
-  const bool counting = !request.ranks || request.ranks->ranks.first();
+  RayCounts uncounted;
   points_.choose(request.step, request.points, false, request.counts, batch.starts,
-                 counting ? start_rays_ : by_all,
+                 request.counts_choice ? start_rays_ : uncounted,
                  request.samples ? std::optional(request.first_sample) : std::nullopt);
-  if (request.ranks) choose_tracers(batch, *request.ranks);
   const bool samples = !batch.starts.samples.empty();
   batch.first_hits.resize(samples ? batch.starts.starts.size() : 0);
   batch.traced.resize(samples && request.to_the_end ? batch.starts.starts.size() : 0);

@@ -8,8 +8,8 @@
 
 namespace gatelight::renderer {
 
-void RecordBatch::add_to(Film& film, const RenderOptions& options, const RankTiles* ranks,
-                         SampleCounts& counts) const {
+void RecordBatch::add_to(Film& film, const RenderOptions& options,
+                         const std::function<bool(const Pixel&)>& wanted, SampleCounts& counts) const {
   tbb::enumerable_thread_specific<SampleCounts> parts;
   for_each(radiance.empty() ? 0 : starts.blocks(), [&](std::size_t b) {
     std::vector<PixelSample> samples;
@@ -17,7 +17,7 @@ void RecordBatch::add_to(Film& film, const RenderOptions& options, const RankTil
     std::vector<FirstHit> hits;
     for (std::size_t i = starts.offsets[b]; i < starts.offsets[b + 1]; ++i) {
       const PixelSample& sample = starts.samples[i];
-      if (ranks && !ranks->owns(sample.pixel)) continue;
+      if (!wanted(sample.pixel)) continue;
       [[maybe_unused]] const PixelSample taken = film.take(sample.pixel);
       assert(taken.number == sample.number);
       samples.push_back(sample);
@@ -30,29 +30,31 @@ void RecordBatch::add_to(Film& film, const RenderOptions& options, const RankTil
   keep_first(counts.located);
 }
 
-void RecordSource::trace(const RecordRequest& request, RecordBatch& batch) {
-  begin(request, batch);
+void RecordSource::trace(RecordBatch& batch) {
   for_each(batch.starts.blocks(), [&](std::size_t block) { trace(batch, block); });
 }
 
-void RecordBatch::split(const RecordRequest& request, const PointInputs& inputs, std::size_t outputs) {
+void RecordSource::split(const RecordRequest& request, RecordBatch& batch) const {
   const std::vector<std::size_t> offsets =
-      offsets_of(paths, [](const PathBatch& p) { return p.records.size(); });
-  batch_split = BatchSplit(offsets.back(), request.most_records, request.batches);
-  if (records.inputs() != inputs) records = SurfacePoints(inputs);
-  records.resize(batch_split.kept());
-  targets.resize(outputs * batch_split.kept());
-  for_each(paths.size(), [&](std::size_t b) {
-    for (std::size_t i = 0; i < paths[b].records.size(); ++i) {
+      offsets_of(batch.paths, [](const PathBatch& p) { return p.records.size(); });
+  BatchSplit& split = batch.batch_split;
+  split = BatchSplit(offsets.back(), request.most_records, request.batches);
+  const std::size_t each = outputs();
+  if (batch.records.inputs() != inputs()) batch.records = SurfacePoints(inputs());
+  batch.records.resize(split.kept());
+  batch.targets.resize(each * split.kept());
+  for_each(batch.paths.size(), [&](std::size_t b) {
+    const PathBatch& paths = batch.paths[b];
+    for (std::size_t i = 0; i < paths.records.size(); ++i) {
       const std::size_t record = offsets[b] + i;
-      if (!batch_split.keeps(record)) continue;
-      const std::size_t at = batch_split.place(record);
-      records.copy(paths[b].records, i, 1, at);
-      for (std::size_t o = 0; o < outputs; ++o)
-        targets[outputs * at + o] = paths[b].targets[outputs * i + o] * request.target_scale;
+      if (!split.keeps(record)) continue;
+      const std::size_t at = split.place(record);
+      batch.records.copy(paths.records, i, 1, at);
+      for (std::size_t o = 0; o < each; ++o)
+        batch.targets[each * at + o] = paths.targets[each * i + o] * request.target_scale;
     }
   });
-  paths_traced = starts.starts.size();
+  batch.paths_traced = batch.starts.starts.size();
 }
 
 }  // namespace gatelight::renderer

@@ -13,7 +13,6 @@
 #include "renderer/cache/path_batch.h"
 #include "renderer/cache/training_points.h"
 #include "renderer/film/film_samples.h"
-#include "renderer/film/rank_tiles.h"
 
 namespace gatelight::renderer {
 
@@ -60,7 +59,7 @@ struct RecordRequest {
   float target_scale = 1.0f;
   float contribution_threshold = 0.0f;    ///< PathPlan::contribution_threshold
   std::span<const std::uint32_t> counts;  ///< training steps of each triangle with storage; may be empty
-  const RankTiles* ranks = nullptr;       ///< the ranks that share the work
+  bool counts_choice = true;              ///< whether RecordSource::rays() has those that choose the points
 };
 
 /// The start of each block in an array of the points of all blocks; the last entry is their number.
@@ -83,9 +82,11 @@ struct RecordBatch {
   SurfacePoints records;
   std::vector<float> targets;  ///< outputs for each record, times the scale of targets
   std::uint64_t paths_traced = 0;
-  BatchSplit batch_split;    ///< of `records`
-  std::vector<int> tracers;  ///< rank of each block where several ranks share them; else empty
-  int self = 0;              ///< this rank
+  BatchSplit batch_split;  ///< of `records`
+  /// The process that traces each block, and the number of this one (RecordExchange); empty: this one traces
+  /// all.
+  std::vector<int> tracers;
+  int self = 0;
 
   neural::TrainingBatch batch(std::uint64_t m) const {
     const std::uint64_t begin = batch_split.begin(m);
@@ -93,12 +94,11 @@ struct RecordBatch {
     const std::size_t outputs = records.size() == 0 ? 0 : targets.size() / records.size();
     return {records.batch(begin, size), std::span(targets).subspan(outputs * begin, outputs * size)};
   }
-  /// Whether this rank traces the block.
+  /// Whether the block is traced here.
   bool mine(std::size_t block) const { return tracers.empty() || tracers[block] == self; }
-  /// Adds the starts that are the picture's samples to its film: all, or those of the rank's own pixels.
-  void add_to(Film& film, const RenderOptions& options, const RankTiles* ranks, SampleCounts& counts) const;
-  /// Splits the records of all `paths` into batches, with `outputs` targets each, times the request's scale.
-  void split(const RecordRequest& request, const PointInputs& inputs, std::size_t outputs);
+  /// Adds the starts that are the picture's samples to its film, where `wanted` wants the pixel.
+  void add_to(Film& film, const RenderOptions& options, const std::function<bool(const Pixel&)>& wanted,
+              SampleCounts& counts) const;
 };
 
 /// The number of points that make about `records` records.
@@ -119,8 +119,8 @@ struct AnswerPoints {
 };
 
 /// Makes records in parts, so that tracing can overlap with the training of the steps before: begin() and
-/// trace() do not use the cache, finish() queries it. They work on the rank's own blocks. Then the caller
-/// splits the records into batches. Gives the same bits for any number of threads.
+/// trace() do not use the cache, finish() queries it. They leave out blocks that are traced elsewhere. Then
+/// the caller splits the records into batches. Gives the same bits for any number of threads.
 class RecordSource {
  public:
   virtual ~RecordSource() = default;
@@ -139,13 +139,11 @@ class RecordSource {
   virtual void finish(const AnswerPoints& answer, RecordBatch& batch) = 0;
   virtual RayCounts rays() const = 0;
 
-  /// Begins, and traces all blocks.
-  void trace(const RecordRequest& request, RecordBatch& batch);
+  /// Traces all blocks of a batch that was begun.
+  void trace(RecordBatch& batch);
 
-  /// Splits the records of all blocks into batches.
-  void split(const RecordRequest& request, RecordBatch& batch) const {
-    batch.split(request, inputs(), outputs());
-  }
+  /// Splits the records of all blocks into batches, with outputs() targets each, times the request's scale.
+  void split(const RecordRequest& request, RecordBatch& batch) const;
 };
 
 }  // namespace gatelight::renderer

@@ -1,22 +1,16 @@
 #include "renderer/cache/record_exchange.h"
 
+#include <algorithm>
+#include <utility>
+
+#include "renderer/cache/record_batch.h"
 #include "renderer/distributed/packing.h"
 
 namespace gatelight::renderer {
+namespace {
 
-void choose_tracers(RecordBatch& batch, const RankTiles& ranks) {
-  const TrainingStarts& starts = batch.starts;
-  const std::size_t blocks = starts.blocks();
-  batch.tracers.clear();
-  batch.self = ranks.ranks.rank();
-  const std::int64_t tiles = ranks.tiles.count();
-  for (std::size_t b = 0; b < blocks; ++b) {
-    batch.tracers.push_back(starts.samples.empty()
-                                ? ranks.shares.owner(static_cast<int>(static_cast<std::int64_t>(b) * tiles /
-                                                                      static_cast<std::int64_t>(blocks)))
-                                : ranks.owner(starts.samples[starts.offsets[b]].pixel));
-  }
-}
+/// Work of the slowest rank after which the shares of the ranks are adjusted.
+constexpr double kRebalanceSeconds = 0.5;
 
 Bytes pack_records(const RecordBatch& batch, const RankTiles& ranks, const RankWork& work) {
   Packer packer;
@@ -43,6 +37,7 @@ Bytes pack_records(const RecordBatch& batch, const RankTiles& ranks, const RankW
   return packer.take();
 }
 
+/// Returns the work of each rank.
 std::vector<RankWork> unpack_records(const std::vector<Bytes>& all, const RankTiles& ranks,
                                      RecordBatch& batch) {
   std::vector<RankWork> work;
@@ -70,6 +65,52 @@ std::vector<RankWork> unpack_records(const std::vector<Bytes>& all, const RankTi
     }
   }
   return work;
+}
+
+}  // namespace
+
+void RecordExchange::choose_blocks(RecordBatch& batch) const {
+  if (is_alone()) return;
+  const TrainingStarts& starts = batch.starts;
+  const std::size_t blocks = starts.blocks();
+  batch.tracers.clear();
+  batch.self = ranks_->ranks.rank();
+  const std::int64_t tiles = ranks_->tiles.count();
+  for (std::size_t b = 0; b < blocks; ++b) {
+    batch.tracers.push_back(starts.samples.empty()
+                                ? ranks_->shares.owner(static_cast<int>(static_cast<std::int64_t>(b) * tiles /
+                                                                        static_cast<std::int64_t>(blocks)))
+                                : ranks_->owner(starts.samples[starts.offsets[b]].pixel));
+  }
+}
+
+RecordExchange::Coming RecordExchange::send(const RecordBatch& batch, const RankWork& work) {
+  if (is_alone()) return nullptr;
+  Bytes packed = pack_records(batch, *ranks_, work);
+  share.bytes += packed.size();
+  return ranks_->ranks.begin_gather(std::move(packed));
+}
+
+void RecordExchange::receive(Coming coming, RecordBatch& batch) {
+  if (is_alone()) return;
+  const TrainingStarts& starts = batch.starts;
+  for (std::size_t b = 0; b < starts.blocks(); ++b) {
+    if (batch.mine(b)) share.paths += starts.offsets[b + 1] - starts.offsets[b];
+  }
+  const std::vector<RankWork> work = unpack_records(coming->wait(), *ranks_, batch);
+  work_.resize(work.size());
+  for (std::size_t r = 0; r < work.size(); ++r) {
+    work_[r].seconds += work[r].seconds;
+    work_[r].rays += work[r].rays;
+  }
+}
+
+void RecordExchange::rebalance(const Rebalance& use) {
+  const auto longer = [](const RankWork& a, const RankWork& b) { return a.seconds < b.seconds; };
+  const auto longest = std::max_element(work_.begin(), work_.end(), longer);
+  if (!use || longest == work_.end() || longest->seconds < kRebalanceSeconds) return;
+  use(work_);
+  work_.clear();
 }
 
 }  // namespace gatelight::renderer

@@ -7,9 +7,7 @@
 #include "base/parallel/loops.h"
 #include "renderer/cache/node_spacing.h"
 #include "renderer/cache/radiance_records.h"
-#include "renderer/cache/record_exchange.h"
 #include "renderer/cache/scene_layout.h"
-#include "renderer/distributed/collectives.h"
 
 namespace gatelight::renderer {
 
@@ -145,7 +143,7 @@ struct RecordCounts {
   double few = 0.0;
 };
 
-RecordCounts count_records(const RecordBatch& batch, int vertices, const RankTiles* ranks) {
+RecordCounts count_records(const RecordBatch& batch, int vertices, const RecordExchange& exchange) {
   RecordCounts counts;
   for (const PathBatch& block : batch.paths) {
     for (const int n : records_by_path(block)) {
@@ -153,15 +151,11 @@ RecordCounts count_records(const RecordBatch& batch, int vertices, const RankTil
       counts.few += std::min(n, vertices);
     }
   }
-  if (ranks) {  // the numbers are integers, so their sums are exact
-    counts.all = sum_of_all(ranks->ranks, counts.all);
-    counts.few = sum_of_all(ranks->ranks, counts.few);
-  }
-  return counts;
+  return {exchange.sum(counts.all), exchange.sum(counts.few)};
 }
 
 void scout_paths(const World& world, const Camera& camera, const RenderOptions& options,
-                 const TrainingPoints& points, const RankTiles* ranks, Scouted& scouted) {
+                 const TrainingPoints& points, RecordExchange& exchange, Scouted& scouted) {
   const RenderOptions plain = plain_options(options);
   const StoredSurfaces everything;
   const CachedPaths paths(world, cached_paths_options(plain), everything);
@@ -169,17 +163,17 @@ void scout_paths(const World& world, const Camera& camera, const RenderOptions& 
   inputs.positions = true;
   RadianceRecords records(paths, points, plain, inputs);
   RecordBatch batch;
-  const RecordRequest request{.step = kStep - kCameraGroups, .points = kPaths, .ranks = ranks};
-  records.trace(request, batch);
+  const RecordRequest request{
+      .step = kStep - kCameraGroups, .points = kPaths, .counts_choice = exchange.counts_common_rays()};
+  records.begin(request, batch);
+  exchange.choose_blocks(batch);
+  records.trace(batch);
   records.finish({}, batch);
-  if (ranks) {
-    Bytes mine = pack_records(batch, *ranks, {});
-    unpack_records(ranks->ranks.gather(std::move(mine)), *ranks, batch);
-  }
+  exchange.receive(exchange.send(batch, {}), batch);
   records.split(request, batch);
   scouted.rays.add(records.rays());
 
-  const RecordCounts counts = count_records(batch, options.cache.self_training.vertices, ranks);
+  const RecordCounts counts = count_records(batch, options.cache.self_training.vertices, exchange);
   const CameraRay eye =
       camera.ray(0.5f * static_cast<float>(options.width), 0.5f * static_cast<float>(options.height));
   std::vector<Sighted> sighted(batch.records.size());
@@ -232,15 +226,16 @@ Scouting::Scouting() = default;
 Scouting::~Scouting() = default;
 
 void Scouting::add(const World& world, const Camera& camera, const PixelRect& region,
-                   const RenderOptions& options, const RankTiles* ranks) {
+                   const RenderOptions& options, RecordExchange exchange) {
   if (!found_) found_ = std::make_unique<Scouted>(world.scene.instances.size());
   Scouted& found = *found_;
   const RenderOptions plain = plain_options(options);
   const TrainingPoints points(world, camera, region, plain, {}, nullptr);
   RayCounts rays;
   const auto [traced, hits] = scout_camera_rays(world, points, rays, found);
-  if (!ranks || ranks->ranks.first()) found.rays.add(rays);  // all ranks trace them
-  if (options.integrator == Integrator::nrc) return scout_paths(world, camera, options, points, ranks, found);
+  if (exchange.counts_common_rays()) found.rays.add(rays);
+  if (options.integrator == Integrator::nrc)
+    return scout_paths(world, camera, options, points, exchange, found);
   found.paths += traced;
   found.records += hits;
   found.records_if_short += hits;

@@ -6,8 +6,8 @@
 
 #include "renderer/cache/cache_state.h"
 #include "renderer/cache/cached_paths.h"
+#include "renderer/cache/record_exchange.h"
 #include "renderer/cache/training_points.h"
-#include "renderer/film/rank_tiles.h"
 
 namespace gatelight::renderer {
 
@@ -18,17 +18,17 @@ struct ScoutReport {
   RayCounts rays;
 };
 
-/// Gives the same bits for any number of threads and of ranks, which share the paths. For ambient occlusion
-/// only primary hits are used.
+/// Gives the same bits for any number of threads. For ambient occlusion only primary hits are used.
 class Scouting {
  public:
   Scouting();
   ~Scouting();
 
-  /// Scouts one view. The scene of all views is the same, at any time.
+  /// Scouts one view, whose paths the processes of the exchange share. The scene of all views is the same, at
+  /// any time.
   void add(const World& world, const Camera& camera, const PixelRect& region, const RenderOptions& options,
-           const RankTiles* ranks = nullptr);
-  /// Of all views. The rays are those of this rank.
+           RecordExchange exchange = {});
+  /// Of all views. The rays are those that were counted here.
   ScoutReport report(const scene::Scene& scene, const RenderOptions& options) const;
 
  private:

@@ -58,7 +58,7 @@ class SurfacePoints {
 
   void push_back(const SurfacePoint& point);
 
-  /// Packs all points, for another rank.
+  /// Packs all points.
   void pack(Packer& packer) const;
   /// Replaces all points by `size` unpacked ones.
   void unpack(Unpacker& unpacker, std::size_t size);

@@ -210,7 +210,6 @@ void TrainingPoints::from_surfaces(std::uint64_t step, std::size_t count, Traini
     for (std::size_t index = begin; index < end; ++index) {
       PathStart& start = result.starts[index];
       key(options_, seed, index, start);
-      start.on_surface = true;
       const Sampler& sampler = start.sample.sampler;
       const double u = (static_cast<double>(index) + static_cast<double>(sampler.get_1d(kSurfaceChoice))) /
                        static_cast<double>(count);

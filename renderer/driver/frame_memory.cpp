@@ -54,7 +54,7 @@ int steps_of_frames(const PreparedPicture& picture) {
   return static_cast<int>(std::lround(kStepsOfFrames * choose_training_steps(options, pixels)));
 }
 
-void FrameMemory::begin(const PreparedPicture& picture, DistributedTiles& tiles, double seconds,
+void FrameMemory::begin(const PreparedPicture& picture, const RecordExchange& exchange, double seconds,
                         const std::filesystem::path& file_name) {
   const RenderOptions& options = picture.options;
   fingerprint = picture.fingerprint();
@@ -62,12 +62,12 @@ void FrameMemory::begin(const PreparedPicture& picture, DistributedTiles& tiles,
   if (!uses_cache(options.integrator)) return;
   fresh_steps = steps_of_frames(picture);
   if (!file_name.empty()) {
-    cache = read_session(picture, tiles, file_name, fingerprint, frame_tensors());
+    cache = read_session(picture, exchange, file_name, fingerprint, frame_tensors());
   } else if (scouted) {
     const ScoutReport report = picture.arena.execute([&] { return scouting.report(picture.scene, options); });
-    cache = make_session(picture, tiles, &report.setup);
+    cache = make_session(picture, exchange, &report.setup);
   } else {
-    cache = make_session(picture, tiles, nullptr);
+    cache = make_session(picture, exchange, nullptr);
   }
 }
 

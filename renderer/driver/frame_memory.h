@@ -10,7 +10,7 @@
 #include "renderer/cache/cache_session.h"
 #include "renderer/cache/scouting.h"
 #include "renderer/denoise/denoise.h"
-#include "renderer/driver/render_context.h"
+#include "renderer/driver/prepared_picture.h"
 #include "renderer/fingerprint/scene_fingerprint.h"
 #include "renderer/temporal/history.h"
 #include "renderer/temporal/light_probes.h"
@@ -44,7 +44,7 @@ struct FrameMemory {
   /// Keeps the frame for the next one.
   void keep(const PreparedPicture& picture, const std::vector<float>& denoised, const Reuse& reuse);
   /// Renderer::begin_frames().
-  void begin(const PreparedPicture& picture, DistributedTiles& tiles, double seconds,
+  void begin(const PreparedPicture& picture, const RecordExchange& exchange, double seconds,
              const std::filesystem::path& file);
   /// Renderer::restore_frame().
   void restore(const PreparedPicture& picture, const std::filesystem::path& file);

@@ -11,7 +11,6 @@
 #include "base/file/digest.h"
 #include "renderer/cache/cache_backend.h"
 #include "renderer/cache/cache_model.h"
-#include "renderer/distributed/collectives.h"
 #include "renderer/fingerprint/deciding_options.h"
 
 namespace gatelight::renderer {
@@ -31,7 +30,9 @@ CheckpointIdentity identity_of(const PreparedPicture& picture) {
 
 }  // namespace
 
-void write_output(const Callbacks& callbacks, bool again, const std::function<void()>& write) {
+void write_output(const RenderContext& context, bool again, const std::function<void()>& write) {
+  if (!context.team.finishes()) return;
+  const Callbacks& callbacks = context.callbacks;
   if (!callbacks.output_failed) return write();
   try {
     write();
@@ -42,35 +43,38 @@ void write_output(const Callbacks& callbacks, bool again, const std::function<vo
   }
 }
 
+void check_output(const RenderContext& context, const std::string& file) {
+  if (context.team.finishes()) check_writable(file);
+}
+
 PictureCheckpoint::PictureCheckpoint(const RenderContext& context, Film& film, RenderStatistics& earlier)
     : context_(context), options_(context.picture.options.checkpoint) {
   if (options_.file.empty()) return;
-  Ranks& ranks = context.tiles.ranks();
+  const PictureTeam& team = context.team;
   identity_ = identity_of(context.picture);
-  if (ranks.first()) check_writable(options_.file);
-  if (!options_.resume || !agreed(ranks, ranks.first() && std::filesystem::exists(options_.file))) return;
-  shared_ = share_file(ranks, options_.file);
+  check_output(context, options_.file);
+  if (!options_.resume || !team.agreed(team.finishes() && std::filesystem::exists(options_.file))) return;
+  shared_ = team.shared(options_.file);
   found_.emplace(shared_.path());
   found_->expect(*identity_, context.picture.options.spp);
   found_->restore(film, earlier);
 }
 
 bool PictureCheckpoint::is_due() const {
-  return is_kept() && agreed(context_.tiles.ranks(), seconds_since(last_) >= options_.every_seconds);
+  return is_kept() && context_.team.agreed(seconds_since(last_) >= options_.every_seconds);
 }
 
 void PictureCheckpoint::write(Phase phase, int samples, Film& film, const Training* training,
                               const RenderStatistics& sum, bool again) {
   if (!is_kept()) return;
-  context_.tiles.gather(film);
+  context_.team.gather(film);
   last_ = Clock::now();
-  if (!context_.tiles.ranks().first()) return;
   CheckpointProgress progress{.phase = phase, .samples = samples};
   if (training) {
     progress.first_step = training->first_step();
     progress.has_training_samples = training->has_training_samples();
   }
-  write_output(context_.callbacks, again, [&] {
+  write_output(context_, again, [&] {
     const neural::TrainingOptions learning = training_options(context_.picture.options);
     std::optional<CacheState> state;
     std::optional<CheckpointCache> cache;

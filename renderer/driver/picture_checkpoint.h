@@ -3,20 +3,22 @@
 
 #include <functional>
 #include <optional>
+#include <string>
 
 #include "base/clock.h"
-#include "renderer/distributed/shared_file.h"
 #include "renderer/driver/checkpoint.h"
 #include "renderer/driver/render_context.h"
 #include "renderer/driver/training.h"
 
 namespace gatelight::renderer {
 
-/// Calls `write`. A full disk, or too little memory for a copy of the state, costs the file but not the
-/// picture. `again`: another try follows.
-void write_output(const Callbacks& callbacks, bool again, const std::function<void()>& write);
+/// Calls `write` where this process writes files. A full disk, or too little memory for a copy of the state,
+/// costs the file but not the picture. `again`: another try follows.
+void write_output(const RenderContext& context, bool again, const std::function<void()>& write);
+/// Throws OutputError where this process writes files, and this one cannot be written.
+void check_output(const RenderContext& context, const std::string& file);
 
-/// All ranks call the same functions. Without CheckpointOptions::file nothing is read or written.
+/// Without CheckpointOptions::file nothing is read or written.
 class PictureCheckpoint {
  public:
   /// Reads the file where the options ask to resume from it. Film and `earlier` are then its.

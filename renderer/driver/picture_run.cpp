@@ -13,7 +13,6 @@
 #include "base/errors.h"
 #include "base/file/atomic_file.h"
 #include "base/parallel/schedule.h"
-#include "renderer/distributed/collectives.h"
 #include "renderer/driver/error_checks.h"
 #include "renderer/driver/picture_checkpoint.h"
 #include "renderer/driver/picture_stages.h"
@@ -32,7 +31,7 @@ class PictureRun {
       : context_(context),
         memory_(memory),
         options_(context.picture.options),
-        ranks_(context.tiles.ranks()),
+        team_(context.team),
         statistics_(statistics),
         sums_(context),
         film_(context.picture.make_film()) {}
@@ -51,7 +50,7 @@ class PictureRun {
     run_passes(loop);
     end_passes(loop);
     Picture picture = finish_film(loop, memory_);
-    if (ranks_.first()) add_cryptomattes(picture, std::move(mattes_));
+    add_cryptomattes(picture, std::move(mattes_));
     note_end(loop);
     return picture;
   }
@@ -59,7 +58,7 @@ class PictureRun {
  private:
   void restore() {
     const std::string& cache = options_.cache.cache_out;
-    if (uses_cache(options_.integrator) && !cache.empty() && ranks_.first()) check_writable(cache);
+    if (uses_cache(options_.integrator) && !cache.empty()) check_output(context_, cache);
     checkpoint_.emplace(context_, film_, sums_.earlier);
   }
 
@@ -106,8 +105,8 @@ class PictureRun {
   }
 
   void write_cache() const {
-    if (training_ && is_converged_cache() && !options_.cache.cache_out.empty() && ranks_.first())
-      write_output(context_.callbacks, false, [&] { training_->write_cache(); });
+    if (training_ && is_converged_cache() && !options_.cache.cache_out.empty())
+      write_output(context_, false, [&] { training_->write_cache(); });
   }
 
   void run_passes(SampleLoop& loop) {
@@ -116,14 +115,13 @@ class PictureRun {
     limit_passes(loop);
     if (training_ && training_->stopped()) loop.stop();
     if (is_good_enough(loop)) return;
-    if (ranks_.first())
-      context_.picture.arena.execute([&] { beside_.run([&] { prepare_to_finish(context_.picture); }); });
+    context_.picture.arena.execute([&] { beside_.run([&] { prepare_to_finish(context_.picture); }); });
     while (loop.done() < options_.spp) {
       if (!run_pass(loop) || loop.done() == options_.spp) return;
       limit_passes(loop);
       show_snapshot(loop);
       if (loop.over() || is_good_enough(loop) || loop.over()) return;
-      context_.tiles.rebalance(film_, loop.last_pass());
+      team_.rebalance(film_, loop.last_pass());
       if (is_converged_cache() && checkpoint_->is_due())
         keep(Phase::render, loop.done(), sum_up(&loop), true);
     }
@@ -139,7 +137,7 @@ class PictureRun {
     } catch (const DeviceLost& error) {
       // Each pixel is the mean of its own samples, so an incomplete pass is a picture. A checkpoint could
       // not resume from it; the last checkpoint is kept.
-      if (loop.done() == 0 || !ranks_.is_single()) throw;
+      if (loop.done() == 0 || !team_.is_alone()) throw;
       device_lost_ = error.what();
       return false;
     }
@@ -154,10 +152,10 @@ class PictureRun {
   void show_snapshot(SampleLoop& loop) {
     const Callbacks& callbacks = context_.callbacks;
     const bool wanted = callbacks.snapshot_wanted && callbacks.snapshot && callbacks.snapshot_wanted();
-    if (!any(ranks_, wanted)) return;
+    if (!team_.any(wanted)) return;
     statistics_ = sum_up(&loop);
     Picture picture = finish_film(loop, nullptr);
-    if (!ranks_.first()) return;
+    if (!team_.finishes()) return;
     add_cryptomattes(picture, mattes_);
     callbacks.snapshot(picture);
   }
@@ -215,7 +213,7 @@ class PictureRun {
   RenderContext context_;
   FrameMemory* memory_;
   const RenderOptions& options_;
-  Ranks& ranks_;
+  PictureTeam& team_;
   RenderStatistics& statistics_;  ///< of the picture so far
   PictureStatistics sums_;
   Film film_;

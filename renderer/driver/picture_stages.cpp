@@ -7,7 +7,6 @@
 
 #include "base/clock.h"
 #include "renderer/denoise/denoise_time.h"
-#include "renderer/distributed/collectives.h"
 #include "renderer/transport/cryptomatte_pass.h"
 #include "renderer/transport/shadow_catcher.h"
 
@@ -63,14 +62,14 @@ Cryptomattes make_cryptomattes(const RenderContext& context, double& seconds) {
   const RenderOptions& options = picture.options_of_picture;
   if (options.cryptomattes.empty()) return {};
   const Clock::time_point start = Clock::now();
-  const PixelRect rows = context.tiles.own_rows(picture.region_of_picture());
+  const PixelRect rows = context.team.own_rows(picture.region_of_picture());
   const Camera camera = picture.camera_of_size(options.width, options.height);
   const FilterSampler filter(options.filter, options.filter_width);
   Cryptomattes mattes = picture.arena.execute(
       [&] { return trace_cryptomattes(*picture.world, camera, filter, options, rows); });
-  for (Layer& layer : mattes.layers)
-    layer.values = joined_at_first(context.tiles.ranks(), std::move(layer.values));
+  for (Layer& layer : mattes.layers) layer.values = context.team.joined_rows(std::move(layer.values));
   seconds += seconds_since(start);
+  if (!context.team.finishes()) return {};
   return mattes;
 }
 
@@ -84,10 +83,10 @@ bool carries_light(const PreparedPicture& picture) {
 FinishedPicture finish(const RenderContext& context, Film& film, bool stopped, RenderStatistics& statistics,
                        FrameMemory* memory) {
   const PreparedPicture& picture = context.picture;
-  const double spp = context.tiles.samples_per_pixel(film);
-  context.tiles.gather(film);
+  const double spp = context.team.samples_per_pixel(film);
+  context.team.gather(film);
   FinishedPicture finished;
-  if (context.tiles.ranks().first()) {
+  if (context.team.finishes()) {
     const auto progress = [&callbacks = context.callbacks, stopped, start = Clock::now()](double done) {
       if (callbacks.progress)
         callbacks.progress({.phase = Phase::denoise, .fraction = done, .seconds = seconds_since(start)});
@@ -130,15 +129,15 @@ double expect_finish_seconds(const RenderContext& context) {
   const PreparedPicture& picture = context.picture;
   const double seconds =
       picture.arena.execute([&] { return time_shadows(picture) + time_denoiser(picture); });
-  return agreed(context.tiles.ranks(), seconds);
+  return context.team.agreed(seconds);
 }
 
 std::optional<double> estimate_error(const RenderContext& context, Film& film) {
-  context.tiles.gather(film);
+  context.team.gather(film);
   std::optional<double> error;
-  if (context.tiles.ranks().first())
+  if (context.team.finishes())
     error = error_of_picture(film, finishing(context.picture, 1.0, {}), context.picture.arena);
-  return agreed(context.tiles.ranks(), error);
+  return context.team.agreed(error);
 }
 
 }  // namespace gatelight::renderer

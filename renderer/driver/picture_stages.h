@@ -1,5 +1,5 @@
 #pragma once
-// The stages around the passes of a picture, of all ranks, which all call these functions.
+// The stages around the passes of a picture. The whole team calls these functions.
 
 #include <optional>
 
@@ -10,12 +10,12 @@
 
 namespace gatelight::renderer {
 
-/// The layers of RenderOptions::cryptomattes, for rank 0. Adds to `seconds`.
+/// The layers of RenderOptions::cryptomattes, where the picture is finished. Adds to `seconds`.
 Cryptomattes make_cryptomattes(const RenderContext& context, double& seconds);
 
-/// The finished picture of a film, with its view, for rank 0. Sets the denoiser's statistics. `stopped`: the
-/// caller has stopped the samples, and not yet the denoiser. `memory`: of the animation whose next frame may
-/// reuse the samples; null: none.
+/// The finished picture of a film, with its view; empty where others finish it. Sets the denoiser's
+/// statistics. `stopped`: the caller has stopped the samples, and not yet the denoiser. `memory`: of the
+/// animation whose next frame may reuse the samples; null: none.
 FinishedPicture finish(const RenderContext& context, Film& film, bool stopped, RenderStatistics& statistics,
                        FrameMemory* memory = nullptr);
 

@@ -2,18 +2,16 @@
 
 #include <utility>
 
-#include "renderer/distributed/collectives.h"
-
 namespace gatelight::renderer {
 
 PictureStatistics::PictureStatistics(const RenderContext& context)
-    : context_(context), traffic_before_(context.tiles.ranks().traffic()) {}
+    : context_(context), traffic_before_(context.team.traffic()) {}
 
 RenderStatistics PictureStatistics::sum_up(const Film& film, const Training* training,
                                            const SampleLoop* loop) const {
   RenderStatistics sum = context_.picture.statistics;
   sum.cryptomatte_seconds = cryptomatte_seconds;
-  sum.samples = context_.tiles.own_samples(film);
+  sum.samples = context_.team.own_samples(film);
   SampleCounts counts;
   if (loop) {
     sum.render_seconds = loop->seconds();
@@ -37,18 +35,19 @@ RenderStatistics PictureStatistics::sum_up(const Film& film, const Training* tra
 
 /// Sums up the counts of all ranks, and keeps those of each rank.
 void PictureStatistics::add_other_ranks(RenderStatistics& sum, const CacheSession* session) const {
-  Ranks& ranks = context_.tiles.ranks();
-  if (ranks.is_single()) return;
+  const PictureTeam& team = context_.team;
+  if (team.is_alone()) return;
   struct Counts {
     RankStatistics of_rank;
     RayCounts rays;
     std::uint64_t nonfinite, clamped, queries, negative_answers, unstored_hits;
   };
-  const Ranks::Traffic traffic = ranks.traffic();
+  const auto share = session ? session->exchange().share : RecordExchange::Share{};
+  const Ranks::Traffic traffic = team.traffic();
   const Counts mine{{.threads = sum.threads,
                      .samples = sum.samples,
-                     .training_paths = session ? session->paths_of_rank() : 0,
-                     .record_bytes = session ? session->record_bytes() : 0,
+                     .training_paths = share.paths,
+                     .record_bytes = share.bytes,
                      .seconds = seconds_since(begin),
                      .bytes_sent = traffic.bytes_sent - traffic_before_.bytes_sent,
                      .waiting_seconds = traffic.waiting_seconds - traffic_before_.waiting_seconds},
@@ -62,7 +61,7 @@ void PictureStatistics::add_other_ranks(RenderStatistics& sum, const CacheSessio
   sum.rays = {};
   sum.samples = sum.nonfinite = sum.clamped = 0;
   sum.cache.queries = sum.cache.negative_answers = sum.cache.unstored_hits = 0;
-  for (const Counts& counts : one_of_each(ranks, mine)) {
+  for (const Counts& counts : team.of_each(mine)) {
     sum.ranks.push_back(counts.of_rank);
     sum.threads += counts.of_rank.threads;
     sum.rays.add(counts.rays);
@@ -73,7 +72,7 @@ void PictureStatistics::add_other_ranks(RenderStatistics& sum, const CacheSessio
     sum.cache.negative_answers += counts.negative_answers;
     sum.cache.unstored_hits += counts.unstored_hits;
   }
-  sum.nonfinite_samples = joined(ranks, std::move(sum.nonfinite_samples));
+  sum.nonfinite_samples = team.joined(std::move(sum.nonfinite_samples));
   keep_first(sum.nonfinite_samples);
 }
 

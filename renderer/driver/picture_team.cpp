@@ -1,11 +1,10 @@
-#include "renderer/driver/distributed_tiles.h"
+#include "renderer/driver/picture_team.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <utility>
 
-#include "renderer/distributed/collectives.h"
 #include "renderer/distributed/packing.h"
 
 namespace gatelight::renderer {
@@ -28,14 +27,14 @@ std::uint64_t sum_over(const TileGrid& tiles, Number number) {
 
 }  // namespace
 
-DistributedTiles::DistributedTiles(const PixelRect& region, Ranks& ranks, int threads)
+PictureTeam::PictureTeam(const PixelRect& region, Ranks& ranks, int threads)
     : ranks_(ranks),
       threads_(one_of_each(ranks, static_cast<double>(threads))),
       tiles_(region),
       shares_(tiles_.count(), threads_),
       own_(tiles_.part(shares_.begin(ranks.rank()), shares_.end(ranks.rank()))) {}
 
-PixelRect DistributedTiles::own_rows(const PixelRect& picture) const {
+PixelRect PictureTeam::own_rows(const PixelRect& picture) const {
   const double all = std::accumulate(threads_.begin(), threads_.end(), 0.0);
   const auto row_of = [&](int rank) {
     if (rank == ranks_.count()) return picture.y1;
@@ -49,8 +48,8 @@ PixelRect DistributedTiles::own_rows(const PixelRect& picture) const {
   return rows;
 }
 
-void DistributedTiles::exchange(Film& film, const Shares& shares,
-                                const std::function<bool(int rank, int tile)>& wants) const {
+void PictureTeam::exchange(Film& film, const Shares& shares,
+                           const std::function<bool(int rank, int tile)>& wants) const {
   if (ranks_.is_single()) return;
   const int self = ranks_.rank();
   std::vector<Pixel> pixels;
@@ -75,11 +74,11 @@ void DistributedTiles::exchange(Film& film, const Shares& shares,
   }
 }
 
-void DistributedTiles::gather(Film& film) const {
+void PictureTeam::gather(Film& film) const {
   exchange(film, shares_, [](int rank, int) { return rank == 0; });
 }
 
-void DistributedTiles::rebalance(Film& film, const std::vector<RankWork>& measured) {
+void PictureTeam::rebalance(Film& film, const std::vector<RankWork>& measured) {
   if (ranks_.is_single()) return;
   const Shares before = shares_;
   if (!shares_.rebalance(measured)) return;
@@ -87,11 +86,11 @@ void DistributedTiles::rebalance(Film& film, const std::vector<RankWork>& measur
   own_ = tiles_.part(shares_.begin(ranks_.rank()), shares_.end(ranks_.rank()));
 }
 
-std::uint64_t DistributedTiles::own_samples(const Film& film) const {
+std::uint64_t PictureTeam::own_samples(const Film& film) const {
   return sum_over(own_, [&](const Pixel& p) { return film.taken(p); });
 }
 
-double DistributedTiles::samples_per_pixel(const Film& film) const {
+double PictureTeam::samples_per_pixel(const Film& film) const {
   if (ranks_.is_single()) return film.samples_per_pixel();
   const std::uint64_t sum = sum_over(own_, [&](const Pixel& p) { return film.count(p); });
   return static_cast<double>(sum_of_all(ranks_, sum)) / static_cast<double>(film.pixels());

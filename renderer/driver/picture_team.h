@@ -1,11 +1,14 @@
 #pragma once
-// The tiles of a film, distributed over the ranks that make it.
+// The processes that make one picture together, and their shares of its work.
 
 #include <cstdint>
 #include <functional>
+#include <utility>
 #include <vector>
 
-#include "renderer/distributed/ranks.h"
+#include "renderer/cache/record_exchange.h"
+#include "renderer/distributed/collectives.h"
+#include "renderer/distributed/shared_file.h"
 #include "renderer/distributed/shares.h"
 #include "renderer/film/film.h"
 #include "renderer/film/rank_tiles.h"
@@ -13,22 +16,51 @@
 
 namespace gatelight::renderer {
 
-/// All ranks call the same functions. A single process has all tiles.
-class DistributedTiles {
+/// Each is a rank. All call the same functions in the same order, and each has some tiles of the film. One of
+/// them, rank 0, finishes the pictures and writes their files. A single process has all tiles and finishes.
+class PictureTeam {
  public:
-  /// `threads`: of this rank. The ranks must outlive the tiles.
-  DistributedTiles(const PixelRect& region, Ranks& ranks, int threads);
-  DistributedTiles(const DistributedTiles&) = delete;
-  DistributedTiles& operator=(const DistributedTiles&) = delete;
+  /// `threads`: of this rank. The ranks must outlive the team.
+  PictureTeam(const PixelRect& region, Ranks& ranks, int threads);
+  PictureTeam(const PictureTeam&) = delete;
+  PictureTeam& operator=(const PictureTeam&) = delete;
 
-  Ranks& ranks() const { return ranks_; }
+  bool is_alone() const { return ranks_.is_single(); }
+  /// Whether this process finishes.
+  bool finishes() const { return ranks_.first(); }
+
+  /// The value of the one that finishes, for all.
+  template <class T>
+  T agreed(T mine) const {
+    return renderer::agreed(ranks_, std::move(mine));
+  }
+  /// Whether `mine` is true anywhere.
+  bool any(bool mine) const { return renderer::any(ranks_, mine); }
+  template <class T>
+  std::vector<T> of_each(const T& mine) const {
+    return one_of_each(ranks_, mine);
+  }
+  /// The values of all, one after the other.
+  template <class T>
+  std::vector<T> joined(std::vector<T> mine) const {
+    return renderer::joined(ranks_, std::move(mine));
+  }
+  /// A file that only the one that finishes needs to have (share_file()).
+  SharedFile shared(const std::filesystem::path& path) const { return share_file(ranks_, path); }
+  Ranks::Traffic traffic() const { return ranks_.traffic(); }
+
   /// This rank's tiles; rebalance() changes them.
   const TileGrid& own() const { return own_; }
-  const RankTiles& owners() const { return owners_; }
+  /// Of the caches that learn the picture.
+  RecordExchange records() const { return RecordExchange(owners_); }
   /// This rank's rows of a picture, as many as its threads can do.
   PixelRect own_rows(const PixelRect& picture) const;
+  /// The rows of all for the one that finishes; the others get nothing.
+  std::vector<float> joined_rows(std::vector<float> mine) const {
+    return joined_at_first(ranks_, std::move(mine));
+  }
 
-  /// Rank 0 gets the whole film.
+  /// The one that finishes gets the whole film.
   void gather(Film& film) const;
   /// Distributes the tiles anew where some rank took much longer than others.
   void rebalance(Film& film, const std::vector<RankWork>& measured);

@@ -11,7 +11,6 @@
 #include "base/platform/flush_denormals.h"
 #include "base/platform/threads.h"
 #include "renderer/cache/cache_model.h"
-#include "renderer/distributed/collectives.h"
 #include "renderer/driver/background.h"
 #include "renderer/driver/chosen_integrator.h"
 #include "renderer/film/camera_choice.h"
@@ -106,21 +105,21 @@ std::string made_view(const scene::Scene& scene, const CameraOptions& options, c
 
 }  // namespace
 
-PreparedPicture::PreparedPicture(const scene::Scene& scene_in, const RenderOptions& options_in, Ranks& ranks)
+PreparedPicture::PreparedPicture(const scene::Scene& scene_in, const RenderOptions& options_in,
+                                 const ChosenDenoiser& denoiser_in)
     : scene(scene_in),
       threads(options_in.threads > 0 ? options_in.threads : available_threads()),
       control(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads)),
-      arena(threads),
-      ranks_(ranks) {
-  set_options(options_in);
+      arena(threads) {
+  set_options(options_in, denoiser_in);
 }
 
-void PreparedPicture::set_options(const RenderOptions& chosen) {
+void PreparedPicture::set_options(const RenderOptions& chosen, const ChosenDenoiser& denoiser_in) {
   const FlushDenormals flush;  // also on the arena's threads, which begin here
   if (chosen.threads > 0 && chosen.threads != threads)
     throw BadOption(
         {"threads", fmt::format("{}", chosen.threads), "", fmt::format("{}, as before", threads)});
-  choose_options(chosen);
+  choose_options(chosen, denoiser_in);
   require_threads(threads);
   if (chosen_denoiser.library && !denoiser)
     denoiser = std::make_unique<Denoiser>(*chosen_denoiser.library, threads,
@@ -139,10 +138,9 @@ void PreparedPicture::set_options(const RenderOptions& chosen) {
   describe();
 }
 
-void PreparedPicture::choose_options(const RenderOptions& chosen) {
-  const ChosenDenoiser denoiser_before = chosen_denoiser;
-  chosen_denoiser = choose_denoiser(chosen.denoise, ranks_);
-  if (chosen_denoiser.library != denoiser_before.library) denoiser.reset();
+void PreparedPicture::choose_options(const RenderOptions& chosen, const ChosenDenoiser& denoiser_in) {
+  if (chosen_denoiser.library != denoiser_in.library) denoiser.reset();
+  chosen_denoiser = denoiser_in;
   RenderOptions next = with_denoiser(checked(chosen), chosen_denoiser);
   asks_for_sky = may_need_sky(scene, next);
   next.environment.automatic = next.environment.automatic && !next.environment.sky &&
@@ -204,7 +202,7 @@ void PreparedPicture::choose_sky() {
     constexpr double kMaxDark = 0.5, kMinGain = 0.5;
     const double dark = dark_with(false);
     // In a closed room it would show nothing more.
-    sky = agreed(ranks_, dark > kMaxDark && dark_with(true) < kMinGain * dark);
+    sky = dark > kMaxDark && dark_with(true) < kMinGain * dark;
   }
   options.environment.automatic = options_of_picture.environment.automatic = sky;
   build_world(world_options());

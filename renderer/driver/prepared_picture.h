@@ -25,12 +25,13 @@ namespace gatelight::renderer {
 
 /// Constant while a picture is made.
 struct PreparedPicture {
-  /// Throws the exceptions of Renderer's constructor.
-  PreparedPicture(const scene::Scene& scene_in, const RenderOptions& options_in, Ranks& ranks);
+  /// `denoiser_in`: of these options. Throws the exceptions of Renderer's constructor.
+  PreparedPicture(const scene::Scene& scene_in, const RenderOptions& options_in,
+                  const ChosenDenoiser& denoiser_in);
 
   /// The pictures from now on have other options. Builds only the parts of the world that depend on what has
   /// changed. Throws the exceptions of the constructor; call it again then, with options that it takes.
-  void set_options(const RenderOptions& chosen);
+  void set_options(const RenderOptions& chosen, const ChosenDenoiser& denoiser_in);
   /// Changes the view, and the warnings about it. Builds the lights again where the soft sky comes or goes.
   void set_camera(const CameraOptions& chosen);
   /// The scene shows another time.
@@ -75,7 +76,7 @@ struct PreparedPicture {
   RenderStatistics statistics;   ///< of building, with its warnings
 
  private:
-  void choose_options(const RenderOptions& chosen);
+  void choose_options(const RenderOptions& chosen, const ChosenDenoiser& denoiser_in);
   void build_world(const WorldOptions& wanted);
   /// Whether the view decides about the soft sky.
   bool judges_view() const;
@@ -90,7 +91,6 @@ struct PreparedPicture {
   /// Applies RenderOptions::choose_integrator, for the first view.
   void choose_integrator();
 
-  Ranks& ranks_;
   WorldOptions built_;      ///< of the present world
   std::uint32_t seed_ = 0;  ///< of the whole animation
 };

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "renderer/driver/distributed_tiles.h"
+#include "renderer/driver/picture_team.h"
 #include "renderer/driver/prepared_picture.h"
 #include "renderer/render.h"
 
@@ -9,7 +9,7 @@ namespace gatelight::renderer {
 /// The inputs that all steps of a picture share. They outlive the steps.
 struct RenderContext {
   const PreparedPicture& picture;
-  DistributedTiles& tiles;
+  PictureTeam& team;
   const Callbacks& callbacks;
 };
 

@@ -14,24 +14,24 @@ namespace gatelight::renderer {
 
 struct Renderer::Implementation {
   Implementation(const scene::Scene& scene, const RenderOptions& options, Ranks& ranks)
-      : picture(scene, options, ranks),
-        all_ranks(ranks),
-        tiles(std::in_place, picture.region, ranks, picture.threads),
+      : all_ranks(ranks),
+        picture(scene, options, choose_denoiser(options.denoise, ranks)),
+        team(std::in_place, picture.region, ranks, picture.threads),
         statistics(picture.statistics) {}
 
   void set_options(const RenderOptions& options) {
     const PixelRect region = picture.region;
-    picture.set_options(options);
+    picture.set_options(options, choose_denoiser(options.denoise, all_ranks));
     statistics = picture.statistics;
     memory.fresh_steps = steps_of_frames(picture);
     if (picture.region == region) return;
-    tiles.emplace(picture.region, all_ranks, picture.threads);
+    team.emplace(picture.region, all_ranks, picture.threads);
     memory.forget();
   }
 
-  PreparedPicture picture;
   Ranks& all_ranks;
-  std::optional<DistributedTiles> tiles;
+  PreparedPicture picture;
+  std::optional<PictureTeam> team;
   RenderStatistics statistics;
   FrameMemory memory;
 };
@@ -74,14 +74,14 @@ void Renderer::scout() {
   const PreparedPicture& p = self.picture;
   if (!uses_cache(p.options.integrator)) return;
   p.arena.execute(
-      [&] { self.memory.scouting.add(*p.world, p.camera, p.region, p.options, &self.tiles->owners()); });
+      [&] { self.memory.scouting.add(*p.world, p.camera, p.region, p.options, self.team->records()); });
   self.memory.scouted = true;
 }
 
 void Renderer::begin_frames(double seconds, const std::filesystem::path& file) {
   const FlushDenormals flush;
   Implementation& self = *implementation_;
-  self.memory.begin(self.picture, *self.tiles, seconds, file);
+  self.memory.begin(self.picture, self.team->records(), seconds, file);
 }
 
 void Renderer::restore_frame(const std::filesystem::path& file) {
@@ -95,7 +95,7 @@ Picture Renderer::render_frame(int frame, const Callbacks& callbacks) {
   Implementation& self = *implementation_;
   self.picture.begin_frame(frame);
   self.memory.frame = frame;
-  Picture picture = render_picture({self.picture, *self.tiles, callbacks}, self.statistics, &self.memory);
+  Picture picture = render_picture({self.picture, *self.team, callbacks}, self.statistics, &self.memory);
   self.memory.last_frame = frame;
   return picture;
 }
@@ -107,7 +107,7 @@ void Renderer::note_frame(int frame, const CameraOptions& camera) {
 }
 
 bool Renderer::knows_frame(int frame) const {
-  return implementation_->memory.knows_view(frame);
+  return !implementation_->team->finishes() || implementation_->memory.knows_view(frame);
 }
 
 void Renderer::write_frame(const std::filesystem::path& path, std::optional<float> exposure) const {
@@ -121,13 +121,13 @@ FrameStatus read_frame_status(const std::filesystem::path& path) {
 Picture Renderer::render(const Callbacks& callbacks) {
   const FlushDenormals flush;
   Implementation& self = *implementation_;
-  return render_picture({self.picture, *self.tiles, callbacks}, self.statistics);
+  return render_picture({self.picture, *self.team, callbacks}, self.statistics);
 }
 
 bool Renderer::render_series(const Series& series, const SeriesPicture& picture, const Callbacks& callbacks) {
   const FlushDenormals flush;
   Implementation& self = *implementation_;
-  return renderer::render_series({self.picture, *self.tiles, callbacks}, series, picture, self.statistics);
+  return renderer::render_series({self.picture, *self.team, callbacks}, series, picture, self.statistics);
 }
 
 CacheReport Renderer::report_cache() {

@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "renderer/cache/cached_pass.h"
-#include "renderer/distributed/collectives.h"
 #include "renderer/driver/time_budget.h"
 #include "renderer/transport/reference_pass.h"
 
@@ -16,12 +15,12 @@ namespace {
 
 /// A pass takes about this long, so that time limits, signals and snapshots are handled soon.
 constexpr double kPassSeconds = 0.7;
-/// Ranks wait for each other after each pass, and their speeds jump.
-constexpr double kPassSecondsOfRanks = 3.0;
+/// The processes of a team wait for each other after each pass, and their speeds jump.
+constexpr double kPassSecondsOfTeam = 3.0;
 
 std::unique_ptr<Pass> make_pass(const RenderContext& context, Training* training) {
   const PreparedPicture& picture = context.picture;
-  const PassContext inputs{context.tiles.own(), picture.options, picture.camera, picture.filter};
+  const PassContext inputs{context.team.own(), picture.options, picture.camera, picture.filter};
   if (training) return std::make_unique<CachedPass>(*picture.world, inputs, training->session());
   return std::make_unique<ReferencePass>(*picture.world, inputs);
 }
@@ -31,7 +30,7 @@ std::unique_ptr<Pass> make_pass(const RenderContext& context, Training* training
 SampleLoop::SampleLoop(const RenderContext& context, Film& film, Training* training, int spp)
     : picture_(context.picture),
       callbacks_(context.callbacks),
-      ranks_(context.tiles.ranks()),
+      team_(context.team),
       film_(film),
       pass_(make_pass(context, training)),
       spp_(spp) {}
@@ -65,8 +64,8 @@ void SampleLoop::run_pass(int goal) {
 }
 
 void SampleLoop::note_pass(int batch, double seconds) {
-  // A rank without tiles did not poll the callback during the pass.
-  if (!ranks_.is_single() && callbacks_.stop && callbacks_.stop()) stop_ = true;
+  // A process without tiles did not poll the callback during the pass.
+  if (!team_.is_alone() && callbacks_.stop && callbacks_.stop()) stop_ = true;
   const RayCounts counts = pass_->rays();
   const std::uint64_t rays = counts.camera + counts.bounce + counts.shadow;
   PassReport mine{{seconds, rays - rays_}, stop_, pass_->cut_short(), {}, false};
@@ -79,7 +78,7 @@ void SampleLoop::note_pass(int batch, double seconds) {
   last_pass_.clear();
   double slowest = 0.0;
   std::vector<NonFiniteSample> located;
-  for (const PassReport& report : one_of_each(ranks_, mine)) {
+  for (const PassReport& report : team_.of_each(mine)) {
     last_pass_.push_back(report.work);
     slowest = std::max(slowest, report.work.seconds);
     if (report.stop) stop_ = true;
@@ -93,13 +92,13 @@ void SampleLoop::note_pass(int batch, double seconds) {
   }
   if (!cut_short_) done_ += batch;
   per_sample_ = slowest / batch;
-  const double usual = ranks_.is_single() ? kPassSeconds : kPassSecondsOfRanks;
-  batch_ = agreed(ranks_, samples_of_pass(now(), per_sample_, usual, end_, 2 * batch));
+  const double usual = team_.is_alone() ? kPassSeconds : kPassSecondsOfTeam;
+  batch_ = team_.agreed(samples_of_pass(now(), per_sample_, usual, end_, 2 * batch));
 }
 
 bool SampleLoop::over() const {
-  return any(ranks_,
-             stop_ || cut_short_ || now() >= end_ || (!in_part_ && !pass_fits(now(), per_sample_, end_)));
+  return team_.any(stop_ || cut_short_ || now() >= end_ ||
+                   (!in_part_ && !pass_fits(now(), per_sample_, end_)));
 }
 
 Progress SampleLoop::progress(double samples) const {

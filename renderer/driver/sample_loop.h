@@ -1,6 +1,6 @@
 #pragma once
 // Runs pass after pass over one film: chooses the samples of each pass, reports progress, and checks for the
-// end. Where several ranks share the film, each has its own tiles, and all run the same passes.
+// end. Each process of the team has its own tiles, and all run the same passes.
 
 #include <atomic>
 #include <limits>
@@ -35,11 +35,11 @@ class SampleLoop {
   const Pass& pass() const { return *pass_; }
   /// Runs one pass, up to `goal` samples. Throws NumericalError under NanPolicy::error.
   void run_pass(int goal);
-  /// The work of each rank in the last pass.
+  /// The work of each process in the last pass.
   const std::vector<RankWork>& last_pass() const { return last_pass_; }
   /// Finished samples of every pixel.
   int done() const { return done_; }
-  /// Whether the loop was stopped or the time is over, at any rank.
+  /// Whether the loop was stopped or the time is over, at any process.
   bool over() const;
   bool stopped() const { return stop_; }
   double seconds() const { return seconds_since(start_) - left_out_; }
@@ -49,7 +49,7 @@ class SampleLoop {
   void report_end() const;
 
  private:
-  /// The report that a rank sends to the others after a pass.
+  /// The report that a process sends to the others after a pass.
   struct PassReport {
     RankWork work;
     bool stop = false;
@@ -57,7 +57,7 @@ class SampleLoop {
     NonFiniteSample nonfinite;
     bool found_nonfinite = false;
   };
-  /// Joins the reports of all ranks.
+  /// Joins the reports of all.
   void note_pass(int batch, double seconds);
   void report(double of_pass, int batch);
   Progress progress(double samples) const;
@@ -65,7 +65,7 @@ class SampleLoop {
 
   const PreparedPicture& picture_;
   const Callbacks& callbacks_;
-  Ranks& ranks_;
+  const PictureTeam& team_;
   Film& film_;
   std::unique_ptr<Pass> pass_;
   int spp_;
@@ -77,8 +77,8 @@ class SampleLoop {
   double end_ = std::numeric_limits<double>::infinity();  ///< of the passes, in seconds since the start
   bool in_part_ = false;
   double per_sample_ = 0.0;  ///< seconds of the last pass
-  bool cut_short_ = false;   ///< pixels were left out, at any rank
-  std::uint64_t rays_ = 0;   ///< of this rank, before the last pass
+  bool cut_short_ = false;   ///< pixels were left out, at any process
+  std::uint64_t rays_ = 0;   ///< of this process, before the last pass
   std::vector<RankWork> last_pass_;
   std::optional<double> error_;
   double expected_samples_ = 0.0;  ///< by the error

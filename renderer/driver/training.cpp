@@ -7,7 +7,6 @@
 
 #include "renderer/cache/cache_file.h"
 #include "renderer/cache/cache_model.h"
-#include "renderer/distributed/collectives.h"
 #include "renderer/driver/cache_sessions.h"
 #include "renderer/driver/time_budget.h"
 #include "renderer/settings/resolved_options.h"
@@ -39,17 +38,17 @@ Training::Training(const RenderContext& context, Checkpoint* found)
   if (!cache.cache_in.empty() || !cache.cache_out.empty()) fingerprint_ = picture.fingerprint();
   if (found) {
     const neural::TrainingOptions learning = training_options(options_);
-    session_ = make_session(picture, context.tiles, &found->cache_setup(),
+    session_ = make_session(picture, context.team.records(), &found->cache_setup(),
                             [&](const neural::Model& model) { found->expect_model(model, learning); });
     session_->import_state(found->read_cache(session_->model(), learning));
     first_step_ = found->progress().first_step;
     complete_ = found->progress().phase == Phase::render;
   } else if (!cache.cache_in.empty()) {
-    session_ = read_session(picture, context.tiles, cache.cache_in, fingerprint_);
+    session_ = read_session(picture, context.team.records(), cache.cache_in, fingerprint_);
     first_step_ = session_->steps();
   } else {
     if (context.callbacks.progress) context.callbacks.progress({.phase = Phase::scout, .spp = options_.spp});
-    session_ = make_session(picture, context.tiles, nullptr);
+    session_ = make_session(picture, context.team.records(), nullptr);
   }
 }
 
@@ -64,7 +63,7 @@ Training::Training(const RenderContext& context, FrameMemory& memory)
   const PreparedPicture& picture = context.picture;
   picture.arena.execute([&] {
     session_ = std::make_unique<CacheSession>(*picture.world, picture.camera, picture.region, options_,
-                                              std::move(*memory.cache), &context.tiles.owners());
+                                              std::move(*memory.cache), context.team.records());
   });
   memory.cache.reset();
   first_step_ = session_->steps();
@@ -81,8 +80,7 @@ void Training::expect_steps(int steps) {
 }
 
 void Training::train(int steps, Film& film, const std::function<void()>& after_group) {
-  DistributedTiles& tiles = context_.tiles;
-  Ranks& ranks = tiles.ranks();
+  PictureTeam& team = context_.team;
   const Clock::time_point start = Clock::now();
   const bool limited = end_ != Clock::time_point::max();
   const double end = std::chrono::duration<double>(end_ - start).count();
@@ -94,7 +92,7 @@ void Training::train(int steps, Film& film, const std::function<void()>& after_g
       stopped_ = true;  // what was learned stays
       throw Abandoned();
     }
-    stopped_ = any(ranks, context_.callbacks.stop && context_.callbacks.stop());
+    stopped_ = team.any(context_.callbacks.stop && context_.callbacks.stop());
     if (stopped_ || !limited) return stopped_;
     const double now = seconds_since(start);
     const std::uint64_t step = session_->steps(), next = session_->group_end(step) - step;
@@ -103,13 +101,14 @@ void Training::train(int steps, Film& film, const std::function<void()>& after_g
     last_seconds = now;
     last_step = step;
     const bool late = !group_fits(now, seconds * static_cast<double>(next), end);
-    return step >= first_step_ + kMinSteps && agreed(ranks, late);
+    return step >= first_step_ + kMinSteps && team.agreed(late);
   };
-  watch.rebalance = [&](const std::vector<RankWork>& work) { tiles.rebalance(film, work); };
+  watch.rebalance = [&](const std::vector<RankWork>& work) { team.rebalance(film, work); };
   watch.after_group = after_group;
   if (makes_samples())
     watch.samples = [&](const RecordBatch& group) {
-      group.add_to(film, options_, ranks.is_single() ? nullptr : &tiles.owners(), counts_);
+      const auto owned = [&](const Pixel& pixel) { return session_->exchange().owns(pixel); };
+      group.add_to(film, options_, owned, counts_);
     };
   watch.progress = [&](int step, int, double loss) {
     const double now = session_->statistics().train_seconds;

@@ -26,7 +26,8 @@ Moments targets(const ViewedWorld& viewed, float distance, std::size_t points, i
   OcclusionRecords records(viewed.world, chosen, options, stored, distance, {});
   RecordBatch batch;
   const RecordRequest request{.step = 1, .points = points};
-  records.trace(request, batch);
+  records.begin(request, batch);
+  records.trace(batch);
   records.split(request, batch);
   Moments moments;
   for (const float t : batch.targets) moments.add(static_cast<double>(t));

@@ -21,7 +21,8 @@ RecordBatch made(const ViewedWorld& viewed, const RenderOptions& options, const 
   const TrainingPoints points(viewed.world, viewed.camera, viewed.region, options, {}, nullptr);
   OcclusionRecords records(viewed.world, points, options, stored, distance, {});
   RecordBatch batch;
-  records.trace(request, batch);
+  records.begin(request, batch);
+  records.trace(batch);
   records.finish({}, batch);
   records.split(request, batch);
   EXPECT_EQ(records.rays().camera,

@@ -246,7 +246,8 @@ TEST(RadianceRecords, AReusedBatchHasTheResultsOfANewOne) {
   RecordBatch used;
   for (const std::size_t count : {2000u, 300u}) {
     const RecordRequest request{.step = count, .points = count};
-    records.trace(request, used);
+    records.begin(request, used);
+    records.trace(used);
     records.finish({}, used);
     records.split(request, used);
   }
