@@ -7,11 +7,22 @@
 #include <vector>
 
 #include "renderer/distributed/collectives.h"
-#include "renderer/film/rank_tiles.h"
+#include "renderer/distributed/shares.h"
+#include "renderer/film/tiles.h"
 
 namespace gatelight::renderer {
 
 struct RecordBatch;
+
+/// The ranks that make one picture, and their tiles. The references outlive it. Shares may change.
+struct RankTiles {
+  Ranks& ranks;
+  const TileGrid& tiles;
+  const Shares& shares;
+
+  int owner(const Pixel& pixel) const { return shares.owner(tiles.tile_at(pixel)); }
+  bool owns(const Pixel& pixel) const { return owner(pixel) == ranks.rank(); }
+};
 
 /// All ranks call the same functions in the same order. A single process traces all records, and the
 /// functions change nothing.

@@ -24,7 +24,7 @@ ChosenDenoiser choose_denoiser(const DenoiseOptions& options, Ranks& ranks) {
   if (options.denoiser == DenoiserKind::none) return {};
   ChosenDenoiser chosen;
   if (ranks.first()) chosen = load_denoiser(options);
-  chosen.found = agreed(ranks, static_cast<int>(chosen.found)) != 0;
+  chosen.found = agreed(ranks, chosen.found);
   return chosen;
 }
 

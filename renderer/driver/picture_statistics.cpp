@@ -1,5 +1,7 @@
 #include "renderer/driver/picture_statistics.h"
 
+#include <array>
+#include <cstdint>
 #include <utility>
 
 namespace gatelight::renderer {
@@ -37,40 +39,36 @@ RenderStatistics PictureStatistics::sum_up(const Film& film, const Training* tra
 void PictureStatistics::add_other_ranks(RenderStatistics& sum, const CacheSession* session) const {
   const PictureTeam& team = context_.team;
   if (team.is_alone()) return;
+  constexpr std::size_t kCounted = 6;
+  const std::array<std::uint64_t*, kCounted> counted = {&sum.samples,
+                                                        &sum.nonfinite,
+                                                        &sum.clamped,
+                                                        &sum.cache.queries,
+                                                        &sum.cache.negative_answers,
+                                                        &sum.cache.unstored_hits};
   struct Counts {
     RankStatistics of_rank;
     RayCounts rays;
-    std::uint64_t nonfinite, clamped, queries, negative_answers, unstored_hits;
+    std::array<std::uint64_t, kCounted> numbers{};
   };
   const auto share = session ? session->exchange().share : RecordExchange::Share{};
   const Ranks::Traffic traffic = team.traffic();
-  const Counts mine{{.threads = sum.threads,
-                     .samples = sum.samples,
-                     .training_paths = share.paths,
-                     .record_bytes = share.bytes,
-                     .seconds = seconds_since(begin),
-                     .bytes_sent = traffic.bytes_sent - traffic_before_.bytes_sent,
-                     .waiting_seconds = traffic.waiting_seconds - traffic_before_.waiting_seconds},
-                    sum.rays,
-                    sum.nonfinite,
-                    sum.clamped,
-                    sum.cache.queries,
-                    sum.cache.negative_answers,
-                    sum.cache.unstored_hits};
+  Counts mine{{.threads = sum.threads,
+               .samples = sum.samples,
+               .training_paths = share.paths,
+               .record_bytes = share.bytes,
+               .seconds = seconds_since(begin),
+               .bytes_sent = traffic.bytes_sent - traffic_before_.bytes_sent,
+               .waiting_seconds = traffic.waiting_seconds - traffic_before_.waiting_seconds},
+              sum.rays};
+  for (std::size_t i = 0; i < kCounted; ++i) mine.numbers[i] = std::exchange(*counted[i], 0);
   sum.threads = 0;
   sum.rays = {};
-  sum.samples = sum.nonfinite = sum.clamped = 0;
-  sum.cache.queries = sum.cache.negative_answers = sum.cache.unstored_hits = 0;
   for (const Counts& counts : team.of_each(mine)) {
     sum.ranks.push_back(counts.of_rank);
     sum.threads += counts.of_rank.threads;
     sum.rays.add(counts.rays);
-    sum.samples += counts.of_rank.samples;
-    sum.nonfinite += counts.nonfinite;
-    sum.clamped += counts.clamped;
-    sum.cache.queries += counts.queries;
-    sum.cache.negative_answers += counts.negative_answers;
-    sum.cache.unstored_hits += counts.unstored_hits;
+    for (std::size_t i = 0; i < kCounted; ++i) *counted[i] += counts.numbers[i];
   }
   sum.nonfinite_samples = team.joined(std::move(sum.nonfinite_samples));
   keep_first(sum.nonfinite_samples);

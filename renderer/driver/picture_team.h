@@ -11,7 +11,6 @@
 #include "renderer/distributed/shared_file.h"
 #include "renderer/distributed/shares.h"
 #include "renderer/film/film.h"
-#include "renderer/film/rank_tiles.h"
 #include "renderer/film/tiles.h"
 
 namespace gatelight::renderer {
