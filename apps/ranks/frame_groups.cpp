@@ -7,7 +7,6 @@
 #include <nlohmann/json.hpp>
 
 #include "base/errors.h"
-#include "renderer/distributed/collectives.h"
 
 namespace gatelight::apps {
 namespace {
@@ -18,9 +17,7 @@ using renderer::Bytes;
 Bytes bytes_of(const json& object) {
   // A message may hold names that are no UTF-8.
   const std::string text = object.dump(-1, ' ', false, json::error_handler_t::replace);
-  renderer::Packer packer;
-  packer.add_all(std::span(text));
-  return packer.take();
+  return renderer::packed(text);
 }
 
 json object_of(const Bytes& bytes) {
@@ -45,7 +42,7 @@ int number_of_group(int groups, const renderer::Ranks& all) {
 }
 
 RankGroup own_group(int groups, const RankGroup& all) {
-  const std::vector<int> wanted = renderer::one_of_each(all.ranks, groups);
+  const std::vector<int> wanted = all.ranks.of_each(groups);
   for (std::size_t rank = 1; rank < wanted.size(); ++rank) {
     if (wanted[rank] != wanted[0])
       throw InputError(fmt::format("{} has --frame-groups {}, expected {} as {} has",

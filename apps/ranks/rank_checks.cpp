@@ -17,8 +17,6 @@
 #include "base/platform/memory.h"
 #include "base/platform/threads.h"
 #include "base/simd/isa.h"
-#include "renderer/distributed/collectives.h"
-#include "renderer/distributed/packing.h"
 #include "renderer/film/memory_estimate.h"
 #include "renderer/fingerprint/scene_fingerprint.h"
 #include "renderer/surface/embree.h"
@@ -72,22 +70,19 @@ void share_machines(RenderSettings& settings, const RankGroup& group) {
   const std::array<int, 2> best = {rank_of_isa(renderer::best_isa()), static_cast<int>(simd::select_isa())};
   int least = std::min(best[0], best[1]);
   bool equal = true;
-  for (const std::array<int, 2>& other : renderer::one_of_each(group.ranks, best)) {
+  for (const std::array<int, 2>& other : group.ranks.of_each(best)) {
     least = std::min({least, other[0], other[1]});
     equal &= other == best;
   }
   // Each rank compares with its own sets; any() gives all ranks the same result.
-  if (renderer::any(group.ranks, !equal) && options.isa == "auto")
+  if (group.ranks.any(!equal) && options.isa == "auto")
     options.isa = std::string(simd::isa_name(static_cast<simd::Isa>(least)));
 }
 
 void expect_equal_ranks(const RenderSettings& settings, const scene::Scene& scene, const RankGroup& group) {
   if (group.is_alone()) return;
-  const std::string mine = identity(settings, scene);
-  renderer::Packer packer;
-  packer.add_all(std::span(mine));
   std::vector<std::vector<std::string>> texts;
-  for (const Bytes& bytes : group.ranks.gather(packer.take())) {
+  for (const Bytes& bytes : group.ranks.gather(renderer::packed(identity(settings, scene)))) {
     const std::vector<char> text = renderer::Unpacker(bytes).rest<char>();
     texts.push_back(lines_of({text.begin(), text.end()}));
   }
@@ -111,7 +106,7 @@ std::size_t require_memory_of_ranks(const RenderSettings& settings, const scene:
   };
   // The scene is loaded already.
   const std::vector<Machine> all =
-      renderer::one_of_each(group.ranks, Machine{need.total() - need.geometry, memory_room().bytes});
+      group.ranks.of_each(Machine{need.total() - need.geometry, memory_room().bytes});
   std::map<std::string, Machine> machines;
   for (std::size_t rank = 0; rank < all.size(); ++rank) {
     Machine& machine = machines.try_emplace(group.hosts[rank], Machine{0, all[rank].left}).first->second;

@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "apps/terminal/signals.h"
-#include "renderer/distributed/collectives.h"
 
 namespace gatelight::apps {
 
@@ -18,15 +17,15 @@ std::string RankGroup::name_of(int rank) const {
 }
 
 bool RankGroup::agreed(bool mine) const {
-  return renderer::agreed(ranks, mine);
+  return ranks.agreed(mine);
 }
 
 void RankGroup::wait_for_writer() const {
-  renderer::agreed(ranks, 0);
+  ranks.agreed(0);
 }
 
 int RankGroup::signal() const {
-  const std::vector<int> signals = renderer::one_of_each(ranks, stop_signal());
+  const std::vector<int> signals = ranks.of_each(stop_signal());
   return *std::max_element(signals.begin(), signals.end());
 }
 

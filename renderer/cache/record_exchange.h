@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "renderer/distributed/collectives.h"
+#include "renderer/distributed/ranks.h"
 #include "renderer/distributed/shares.h"
 #include "renderer/film/tiles.h"
 
@@ -56,9 +56,9 @@ class RecordExchange {
   void rebalance(const Rebalance& use);
 
   /// Rank 0's answer.
-  bool agreed(bool mine) const { return is_alone() ? mine : renderer::agreed(ranks_->ranks, mine); }
+  bool agreed(bool mine) const { return is_alone() ? mine : ranks_->ranks.agreed(mine); }
   /// The exact sum of integers of all ranks.
-  double sum(double mine) const { return is_alone() ? mine : sum_of_all(ranks_->ranks, mine); }
+  double sum(double mine) const { return is_alone() ? mine : ranks_->ranks.sum(mine); }
 
   /// What this rank has done; nothing for a single process.
   struct Share {

@@ -62,4 +62,22 @@ class Unpacker {
   std::span<const std::byte> rest_;
 };
 
+template <class Values>
+Bytes packed(const Values& values) {
+  Packer packer;
+  packer.add_all(std::span(values));
+  return packer.take();
+}
+
+/// The values of all these bytes, one after the other.
+template <class T>
+std::vector<T> unpacked(const std::vector<Bytes>& all) {
+  std::vector<T> values;
+  for (const Bytes& bytes : all) {
+    const std::vector<T> of_one = Unpacker(bytes).rest<T>();
+    values.insert(values.end(), of_one.begin(), of_one.end());
+  }
+  return values;
+}
+
 }  // namespace gatelight::renderer

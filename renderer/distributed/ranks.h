@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "renderer/distributed/packing.h"
@@ -40,6 +42,44 @@ class Ranks {
   /// waits for the result; one all-gather at a time.
   virtual std::unique_ptr<AllGather> begin_gather(Bytes mine) = 0;
   std::vector<Bytes> gather(Bytes mine) { return begin_gather(std::move(mine))->wait(); }
+
+  // The same for values, which are numbers or structs of numbers without pointers.
+
+  /// The values of all ranks, one after the other.
+  template <class T>
+  std::vector<T> joined(std::vector<T> mine) {
+    if (is_single()) return mine;
+    return unpacked<T>(gather(packed(mine)));
+  }
+  /// The same for rank 0; the others get nothing.
+  template <class T>
+  std::vector<T> joined_at_first(std::vector<T> mine) {
+    if (is_single()) return mine;
+    std::vector<Bytes> outgoing(static_cast<std::size_t>(count()));
+    outgoing[0] = packed(mine);
+    return unpacked<T>(exchange(std::move(outgoing)));
+  }
+  /// One value of each rank.
+  template <class T>
+  std::vector<T> of_each(const T& mine) {
+    return joined(std::vector<T>{mine});
+  }
+  /// Rank 0's value, broadcast to all.
+  template <class T>
+  T agreed(T mine) {
+    if (is_single()) return mine;
+    Bytes bytes = packed(std::span(&mine, 1));
+    broadcast(bytes);
+    return Unpacker(bytes).read<T>();
+  }
+  /// Whether `mine` is true at any rank.
+  bool any(bool mine) { return sum(std::uint64_t{mine}) > 0; }
+  template <class T>
+  T sum(const T& mine) {
+    T all{};
+    for (const T& one : of_each(mine)) all += one;
+    return all;
+  }
 
   struct Traffic {
     std::uint64_t bytes_sent = 0;

@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "base/errors.h"
-#include "renderer/distributed/collectives.h"
 
 namespace gatelight::renderer {
 namespace {
@@ -24,7 +23,7 @@ ChosenDenoiser choose_denoiser(const DenoiseOptions& options, Ranks& ranks) {
   if (options.denoiser == DenoiserKind::none) return {};
   ChosenDenoiser chosen;
   if (ranks.first()) chosen = load_denoiser(options);
-  chosen.found = agreed(ranks, chosen.found);
+  chosen.found = ranks.agreed(chosen.found);
   return chosen;
 }
 

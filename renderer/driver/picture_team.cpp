@@ -29,7 +29,7 @@ std::uint64_t sum_over(const TileGrid& tiles, Number number) {
 
 PictureTeam::PictureTeam(const PixelRect& region, Ranks& ranks, int threads)
     : ranks_(ranks),
-      threads_(one_of_each(ranks, static_cast<double>(threads))),
+      threads_(ranks.of_each(static_cast<double>(threads))),
       tiles_(region),
       shares_(tiles_.count(), threads_),
       own_(tiles_.part(shares_.begin(ranks.rank()), shares_.end(ranks.rank()))) {}
@@ -93,7 +93,7 @@ std::uint64_t PictureTeam::own_samples(const Film& film) const {
 double PictureTeam::samples_per_pixel(const Film& film) const {
   if (ranks_.is_single()) return film.samples_per_pixel();
   const std::uint64_t sum = sum_over(own_, [&](const Pixel& p) { return film.count(p); });
-  return static_cast<double>(sum_of_all(ranks_, sum)) / static_cast<double>(film.pixels());
+  return static_cast<double>(ranks_.sum(sum)) / static_cast<double>(film.pixels());
 }
 
 }  // namespace gatelight::renderer

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "renderer/cache/record_exchange.h"
-#include "renderer/distributed/collectives.h"
+#include "renderer/distributed/ranks.h"
 #include "renderer/distributed/shared_file.h"
 #include "renderer/distributed/shares.h"
 #include "renderer/film/film.h"
@@ -31,18 +31,18 @@ class PictureTeam {
   /// The value of the one that finishes, for all.
   template <class T>
   T agreed(T mine) const {
-    return renderer::agreed(ranks_, std::move(mine));
+    return ranks_.agreed(std::move(mine));
   }
   /// Whether `mine` is true anywhere.
-  bool any(bool mine) const { return renderer::any(ranks_, mine); }
+  bool any(bool mine) const { return ranks_.any(mine); }
   template <class T>
   std::vector<T> of_each(const T& mine) const {
-    return one_of_each(ranks_, mine);
+    return ranks_.of_each(mine);
   }
   /// The values of all, one after the other.
   template <class T>
   std::vector<T> joined(std::vector<T> mine) const {
-    return renderer::joined(ranks_, std::move(mine));
+    return ranks_.joined(std::move(mine));
   }
   /// A file that only the one that finishes needs to have (share_file()).
   SharedFile shared(const std::filesystem::path& path) const { return share_file(ranks_, path); }
@@ -56,7 +56,7 @@ class PictureTeam {
   PixelRect own_rows(const PixelRect& picture) const;
   /// The rows of all for the one that finishes; the others get nothing.
   std::vector<float> joined_rows(std::vector<float> mine) const {
-    return joined_at_first(ranks_, std::move(mine));
+    return ranks_.joined_at_first(std::move(mine));
   }
 
   /// The one that finishes gets the whole film.
