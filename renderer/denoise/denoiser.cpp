@@ -115,7 +115,7 @@ class Denoiser::Filter {
 
 Denoiser::Denoiser(const OidnLibrary& library, int threads, std::size_t memory_limit_bytes)
     : api_(library.api),
-      device_(api_.NewDevice(oidn::kCpuDevice), Release{api_.ReleaseDevice}),
+      device_(api_.NewDevice(oidn::kCpuDevice), api_.ReleaseDevice),
       memory_limit_bytes_(memory_limit_bytes) {
   const char* message = nullptr;
   if (device_) {

@@ -80,13 +80,8 @@ class Denoiser {
   bool filter_alpha(NoisyImage& image, const FilterOptions& options, const DenoiseProgress& progress,
                     double begin);
 
-  struct Release {
-    void (*function)(oidn::Device);
-    void operator()(oidn::Device device) const { function(device); }
-  };
-
   const oidn::Api& api_;
-  std::unique_ptr<oidn::DeviceHandle, Release> device_;
+  std::unique_ptr<oidn::DeviceHandle, void (*)(oidn::Device)> device_;
   std::size_t memory_limit_bytes_;
   std::mutex mutex_;
   std::vector<std::unique_ptr<Filter>> filters_;  ///< the last used comes first
