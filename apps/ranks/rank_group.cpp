@@ -12,18 +12,6 @@ std::string name_of_rank(int rank, int count, const std::string& host) {
   return fmt::format("rank {} of {} ({})", rank, count, host);
 }
 
-std::string RankGroup::name_of(int rank) const {
-  return name_of_rank(rank, ranks.count(), hosts[static_cast<std::size_t>(rank)]);
-}
-
-bool RankGroup::agreed(bool mine) const {
-  return ranks.agreed(mine);
-}
-
-void RankGroup::wait_for_writer() const {
-  ranks.agreed(0);
-}
-
 int RankGroup::signal() const {
   const std::vector<int> signals = ranks.of_each(stop_signal());
   return *std::max_element(signals.begin(), signals.end());

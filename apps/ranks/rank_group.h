@@ -21,7 +21,9 @@ struct RankGroup {
   /// Asks all other ranks to stop, as if they had received this signal. Empty for a single process.
   std::function<void(int signal)> stop_others = {};
 
-  std::string name_of(int rank) const;
+  std::string name_of(int rank) const {
+    return name_of_rank(rank, ranks.count(), hosts[static_cast<std::size_t>(rank)]);
+  }
   bool is_alone() const { return ranks.is_single(); }
   /// Whether this rank gets the pictures, writes and prints. One of the ranks does.
   bool writes() const { return ranks.first(); }
@@ -29,9 +31,9 @@ struct RankGroup {
   // All ranks call the rest in the same order.
 
   /// The answer of the one that writes.
-  bool agreed(bool mine) const;
+  bool agreed(bool mine) const { return ranks.agreed(mine); }
   /// Returns when the one that writes has come here.
-  void wait_for_writer() const;
+  void wait_for_writer() const { ranks.agreed(0); }
   /// The signal that some rank received; 0: none.
   int signal() const;
 };
