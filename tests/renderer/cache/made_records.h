@@ -22,7 +22,8 @@ struct MadeRecords {
     const std::vector<neural::Sides> sides(viewed.world.scene.instances.size(), neural::Sides::both);
     const TrainingPoints points(viewed.world, viewed.camera, viewed.region, options, sides, nullptr);
     RadianceRecords records(paths, points, options, with_positions());
-    records.trace(request, batch);
+    records.begin(request, batch);
+    records.trace(batch);
     records.finish(answer, batch);
     records.split(request, batch);
     rays = records.rays();
