@@ -182,16 +182,34 @@ void adapt_cache(RenderSettings& settings) {
 
 /// Why a layer would be black; without a problem where it would not.
 ErrorParts why_black(Aov aov, const RenderOptions& o, bool frames) {
-  const bool of_motion = aov == Aov::motion || aov == Aov::motion_next;
-  if (of_motion && !frames) return {.problem = "a still has no motion", .expected = "`frames`"};
-  if (aov < Aov::cache_radiance) return {};
-  if (!uses_cache(o.integrator)) return no_cache(o);
-  const bool of_radiance = aov == Aov::cache_error || aov == Aov::cache_radiance;
-  if (of_radiance && o.integrator == Integrator::nao)
-    return {.problem = "the integrator 'nao' stores no radiance", .expected = "`integrator` nrc"};
-  const bool of_triangles = aov == Aov::training_count || aov == Aov::resolution || aov == Aov::nearest_node;
-  if (of_triangles && o.cache.encoding == neural::FeatureEncoding::hash_grid)
-    return {.problem = "the encoding 'hashgrid' does not store by triangle", .expected = "`encoding` gate"};
+  const auto integrator = [&](const char* problem, const char* expected) {
+    return ErrorParts{.problem = fmt::format("the integrator '{}' {}", enum_name(o.integrator), problem),
+                      .expected = expected};
+  };
+  switch (info_of(aov).needs) {
+    case AovNeeds::nothing:
+      return {};
+    case AovNeeds::frames:
+      return frames ? ErrorParts{} : ErrorParts{.problem = "a still has no motion", .expected = "`frames`"};
+    case AovNeeds::light:
+      if (o.integrator == Integrator::ao || o.integrator == Integrator::nao)
+        return integrator("has no light", "`integrator` path or nrc");
+      if (uses_cache(o.integrator) && o.cache.view == CacheOutput::cache)
+        return {.problem = "the cache's answers have no parts", .expected = "`view` final"};
+      return {};
+    case AovNeeds::cache:
+      return uses_cache(o.integrator) ? ErrorParts{} : no_cache(o);
+    case AovNeeds::radiance_cache:
+      if (!uses_cache(o.integrator)) return no_cache(o);
+      return o.integrator == Integrator::nrc ? ErrorParts{}
+                                             : integrator("stores no radiance", "`integrator` nrc");
+    case AovNeeds::mesh_colors:
+      if (!uses_cache(o.integrator)) return no_cache(o);
+      return o.cache.encoding != neural::FeatureEncoding::hash_grid
+                 ? ErrorParts{}
+                 : ErrorParts{.problem = "the encoding 'hashgrid' does not store by triangle",
+                              .expected = "`encoding` gate"};
+  }
   return {};
 }
 

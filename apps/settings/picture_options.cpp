@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <map>
 
 #include "apps/settings/light_flags.h"
 #include "apps/settings/parsing.h"
@@ -25,14 +26,18 @@ constexpr Choice<std::string_view> kIsa[] = {
 
 constexpr Choice<int> kSupersampling[] = {{"1", 1}, {"2", 2}};
 
-/// Values by a list of names, each once, in the order of the enumeration. `all`: a name for all of them.
+/// Words that stand for several values.
+template <class Enumeration>
+using Words = std::map<std::string, std::vector<Enumeration>>;
+
+/// Values by a list of names, each once, in the order of the enumeration.
 template <class Enumeration>
 std::vector<Enumeration> read_words(const std::string& option, const std::string& text,
-                                    std::string_view all = "") {
+                                    const Words<Enumeration>& words = {}) {
   std::vector<Enumeration> values;
   for (const std::string& word : split_list(option, text)) {
-    if (word == all) {
-      for (const Choice<Enumeration>& choice : kEnumNames<Enumeration>) values.push_back(choice.value);
+    if (const auto several = words.find(word); several != words.end()) {
+      values.insert(values.end(), several->second.begin(), several->second.end());
     } else {
       values.push_back(parse_choice(option, word, kEnumNames<Enumeration>));
     }
@@ -94,17 +99,21 @@ Option region_option(std::optional<std::array<int, 4>>& region) {
 }
 
 Option aov_option(std::vector<Aov>& aovs) {
-  const char* help =
-      "Further layers of EXR files, separated by commas: albedo, normal, depth, position, primitive, "
-      "instance, alpha, samples, variance, raw (the mean of the samples), error (the estimated standard "
-      "error), denoising (the input of `gatelight denoise`), motion (pixels since the frame before, y up), "
-      "motion-next; of a cache cache-radiance, cache-answer, cache-error, "
-      "training-count, resolution, nearest-node; or all";
+  std::string help = "Further layers of EXR files, separated by commas: ";
+  Words<Aov> words;
+  for (const AovInfo& row : kAovs) {
+    help += row.help.empty() ? fmt::format("{}, ", row.name) : fmt::format("{} ({}), ", row.name, row.help);
+    words["all"].push_back(row.aov);
+  }
+  words["passes"] = all_passes();
+  help +=
+      fmt::format("passes (the {} from {} to {}, whose sum is the picture), or all", words["passes"].size(),
+                  info_of(words["passes"].front()).name, info_of(words["passes"].back()).name);
   return {.name = "aov",
           .unit = "LIST",
           .help = help,
           .value = [&] { return words_of(aovs); },
-          .read = [&](const std::string& text) { aovs = read_words<Aov>("aov", text, "all"); }};
+          .read = [&aovs, words](const std::string& text) { aovs = read_words("aov", text, words); }};
 }
 
 Option cryptomatte_option(std::vector<MatteKind>& kinds) {
@@ -162,7 +171,7 @@ constexpr Requirement kDenoiserOrLayers{
 };
 
 void add_denoise_options(OptionGroup& picture, DenoiseOptions& options) {
-  auto& [denoiser, prefilter, supersampling, temporal, library] = options;
+  auto& [denoiser, prefilter, supersampling, temporal, parts, library] = options;
   picture.add(choice("denoiser", denoiser,
                      "Denoises the finished picture: Open Image Denoise (oidn), the same where it "
                      "is found (auto, that of the presets), or nothing"),
@@ -182,6 +191,10 @@ void add_denoise_options(OptionGroup& picture, DenoiseOptions& options) {
                      "Frames take over samples of earlier frames where they show the same surface "
                      "in the same light, before the denoiser"),
               {.in_sweep = false, .needs = {kDenoiser}});
+  picture.add(choice("denoise-parts", parts, kOnOff,
+                     "Denoises the layers of passes and light groups too, each by the picture's guides and in "
+                     "the picture's time, and scales them so that their sum is the picture"),
+              {.in_sweep = false, .needs = {kDenoiser}, .formats = {ImageFormat::exr}});
   picture.add(any_word("oidn", library, "FILE|FOLDER",
                        "Open Image Denoise 2, libOpenImageDenoise.so.2 (default: GATELIGHT_OIDN "
                        "of the environment, else where scripts/setup or the system have it)"),

@@ -9,13 +9,13 @@
 
 #include "base/errors.h"
 #include "renderer/image/image_write.h"
-#include "renderer/settings/enum_names.h"
+#include "renderer/settings/aovs.h"
 #include "renderer/settings/light_group_options.h"
 
 namespace gatelight::apps {
 namespace {
 
-using renderer::Aov;
+using renderer::AovLook;
 using renderer::Layer;
 
 constexpr int kBins = 64;
@@ -105,12 +105,20 @@ std::vector<std::uint8_t> layer_bytes(const renderer::Picture& picture, const st
   if (name.empty()) return renderer::display_bytes(picture, display);
   const Layer* layer = picture.find(name);
   if (layer == nullptr || name.empty()) throw BadOption({"layer", name, "", "a layer of the picture"});
-  const auto is = [&](Aov aov) { return name == renderer::enum_name(aov); };
-  if (is(Aov::albedo)) return as_light(picture, *layer, {});
-  if (is(Aov::normal)) return by_direction(*layer);
-  if (is(Aov::instance_id)) return by_number(*layer);
-  if (is(Aov::cache_radiance) || is(Aov::raw) || name.starts_with(renderer::kLightLayer))
-    return as_light(picture, *layer, display);
+  const renderer::AovInfo* const aov = renderer::find_aov(name);
+  const bool of_group = !aov && name.starts_with(renderer::kLightLayer);
+  switch (aov ? aov->look : of_group ? AovLook::light : AovLook::heat) {
+    case AovLook::light:
+      return as_light(picture, *layer, display);
+    case AovLook::color:
+      return as_light(picture, *layer, {});
+    case AovLook::direction:
+      return by_direction(*layer);
+    case AovLook::id:
+      return by_number(*layer);
+    case AovLook::heat:
+      break;
+  }
   return by_heat(*layer);
 }
 

@@ -45,6 +45,7 @@ CachedPass::CachedPass(const World& world, const PassContext& context, CacheSess
       queries_(session.inputs()) {
   plan_.query_at = context.options.cache.query_at;
   plan_.guides = has(context.options.aovs, Aov::cache_radiance);
+  plan_.passes = context.options.integrator == Integrator::nrc && !passes_among(context.options.aovs).empty();
   plan_.max_depth = context.options.max_depth.value_or(kNoDepthLimit);
   plan_.min_depth = context.options.min_depth;
   if (context.options.cache.view == CacheOutput::cache) {
@@ -136,7 +137,8 @@ void CachedPass::begin(Tile& tile, Film& film, CachedWorker& worker) const {
 void CachedPass::finish(Tile& tile, Film& film, CachedWorker& worker) const {
   context_.options.integrator == Integrator::nao ? finish_occlusion(tile) : finish_paths(tile);
   if (!tile.first_hits.empty()) describe_answers(tile, worker);
-  add_to_film(tile.taken, context_.options, tile.results, tile.first_hits, film, worker.counts);
+  add_to_film(tile.taken, context_.options, tile.results, tile.first_hits, film, worker.counts,
+              tile.paths.passes.parts());
 }
 
 void CachedPass::trace_paths(Tile& tile, CachedWorker& worker) const {
@@ -199,6 +201,7 @@ std::vector<std::int32_t> CachedPass::check_records(const Tile& tile, CachedWork
   PathPlan plan = plan_;
   plan.query_at = QueryAt::none;
   plan.records = true;
+  plan.passes = false;
   paths_.trace(tile.starts, {}, plan, check, {}, worker.rays, worker.scratch);
   check.resolve({}, {});
   std::vector<std::int32_t> records(tile.starts.size(), kNone);

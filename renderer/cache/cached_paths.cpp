@@ -75,15 +75,20 @@ bool CachedPaths::ends_at(const Path& path, QueryAt place) const {
   return false;
 }
 
-void CachedPaths::add_emission(const Path& path, const Emission& found, PathBatch& batch) const {
+void CachedPaths::add_emission(const Path& path, const Emission& found, bool background,
+                               PathBatch& batch) const {
   if (!found.any()) return;
   const Color emission = found.radiance * (found.weight * path.scale());
   if (path.vertex == kNone) {
-    batch.emission[path.index] += path.weights.emission * emission;
+    const Color light = path.weights.emission * emission;
+    batch.emission[path.index] += light;
+    if (batch.passes.any()) batch.passes.add_found(path.index, 0, background, light);
     return;
   }
   PathVertex& from = batch.vertices[static_cast<std::size_t>(path.vertex)];
   from.direct += path.weights.emission * emission;
+  if (batch.passes.any() && from.previous == kNone)
+    batch.passes.add_found(path.index, 1, background, from.link * path.weights.emission * emission);
   if (from.record != kNone && options_.cached.emission())
     batch.target(from.record) += path.weights.cached * emission;
 }
@@ -95,14 +100,14 @@ PathBlock* CachedPaths::scatter(std::uint32_t number, Path& path, const Ray& ray
   if (!hit || path.looks_through(context_, hit)) {
     if (first) record_background(path, *first);
     const Emission sky = path.sky(context_, ray.direction);
-    add_emission(path, sky, batch);
+    add_emission(path, sky, true, batch);
     return nullptr;
   }
   SurfaceInteraction m = path.intersect(context_, ray, hit, plan.max_depth);
   path.weights *= m.passed;
   if (first && path.surfaces == 0) *first = first_hit(hit, m.surface, context_.world.scene.origin);
   if (first) record_guide(path, m, *first);
-  add_emission(path, m.emission, batch);
+  add_emission(path, m.emission, false, batch);
   if (m.ends) return nullptr;
 
   if (plan.query_at == QueryAt::spread || plan.samples_at == QueryAt::spread) {
@@ -139,6 +144,7 @@ void CachedPaths::shade(PathBlock& block, const PathPlan& plan, PathBatch& batch
                         std::span<FirstHit> first_hits, Scratch& scratch) const {
   const auto kind = static_cast<BlockKind>(scratch.kind_of(block));
   const bool all_lobes = kind == kContinue || !options_.cached.emission();
+  if (plan.passes) shade_diffuse(block, all_lobes, scratch.diffuse);
   if (all_lobes) {
     context_.shading.scatter(block);
   } else if (separate_delta_) {
@@ -161,22 +167,40 @@ void CachedPaths::shade(PathBlock& block, const PathPlan& plan, PathBatch& batch
         point_at(block, lane, scratch.hits[block.path[lane]],
                  lane_color(kind == kCacheAndNarrow ? points.wide_albedo : points.albedo, lane));
     vertices[lane] = add_query_vertex(path, point, batch);
+    const ShadingBlock& diffuse = scratch.diffuse.points;
+    if (plan.passes)
+      batch.answer_lobes.push_back({share_of(lane_color(diffuse.wide_albedo, lane), point.albedo)});
     const bool guides = seeks_guide(path, batch);
     if (guides) set_guide(path, point, true, vertices[lane], batch);
     if (all_lobes || separate_delta_)
-      add_light(path, points, lane, false, guides, vertices[lane], plan, scratch);
+      add_light(path, points, lane, false, guides, vertices[lane],
+                plan.passes ? share_of_light(diffuse, lane) : LobeShare{}, plan, scratch);
     if (all_lobes && points.alive[lane])
-      follow_direct(path, block, lane, kind == kCacheAndNarrow, vertices[lane], scratch);
+      follow_direct(path, block, lane, kind == kCacheAndNarrow, vertices[lane], batch, scratch);
   }
   if (all_lobes || kind != kCacheAndNarrow) return;
   if (separate_delta_) context_.shading.scatter_narrow(block, narrow_roulette(plan));
   for (int lane = 0; lane < points.count; ++lane) {
     Path& path = scratch.paths[scratch.path_of[block.path[lane]]];
     if (!separate_delta_ || !points.light_is_delta[lane])
-      add_light(path, points, lane, false, false, vertices[lane], plan, scratch);
+      add_light(path, points, lane, false, false, vertices[lane],
+                {Color::Zero(), plan.passes && light_is_behind(points, lane)}, plan, scratch);
     if (!points.alive[lane]) continue;
     const DirectionSample sampled = direction_sample_at(block, lane);
-    follow(path, block, lane, sampled, {sampled.weight, sampled.weight}, vertices[lane], scratch);
+    const LobeShare lobes{Color::Zero(), sampled.transmitted};
+    follow(path, block, lane, sampled, {sampled.weight, sampled.weight}, vertices[lane], {lobes, lobes},
+           batch, scratch);
+  }
+}
+
+void CachedPaths::shade_diffuse(const PathBlock& block, bool all_lobes, PathBlock& copy) const {
+  copy = block;
+  if (all_lobes) {
+    diffuse_shading_->scatter(copy);
+  } else if (separate_delta_) {
+    diffuse_shading_->delta_light(copy);
+  } else {
+    diffuse_shading_->albedo(copy);
   }
 }
 
@@ -245,7 +269,7 @@ void CachedPaths::continue_from(Path& path, const PathBlock& block, int lane, co
   if (path.emission_only) {
     if (!p.alive[lane]) return;
     const DirectionSample sampled = direction_sample_at(block, lane);
-    follow(path, block, lane, sampled, {sampled.weight, sampled.weight}, kNone, scratch);
+    follow(path, block, lane, sampled, {sampled.weight, sampled.weight}, kNone, {}, batch, scratch);
     return;
   }
   const Hit& hit = scratch.hits[block.path[lane]];
@@ -256,19 +280,26 @@ void CachedPaths::continue_from(Path& path, const PathBlock& block, int lane, co
   if (!stored && wide && ends_here(path, plan)) ++batch.unstored_hits;
   bool record = stored && wide && may_record(path, plan);
   const std::int32_t index = add_vertex(path, point, record, plan, batch);
+  const ShadingBlock& diffuse = scratch.diffuse.points;
+  if (plan.passes)
+    batch.answer_lobes.push_back({share_of(lane_color(diffuse.wide_albedo, lane), wide_albedo)});
   const bool guides = wide && seeks_guide(path, batch);
   if (guides) set_guide(path, point, stored, index, batch);
-  add_light(path, p, lane, record, guides, index, plan, scratch);
+  add_light(path, p, lane, record, guides, index, plan.passes ? share_of_light(diffuse, lane) : LobeShare{},
+            plan, scratch);
   if (!p.alive[lane]) return;
   const DirectionSample sampled = direction_sample_at(block, lane);
   if (!sampled.delta && !(sampled.spread < options_.min_roughness * options_.min_roughness))
     path.wide_events += 1;
   const Color cached = record ? lane_color(p.wide_weight, lane) : Color(Color::Zero());
-  follow(path, block, lane, sampled, {sampled.weight, sampled.weight, cached}, index, scratch);
+  const LobeShare lobes = plan.passes ? share_of_direction(diffuse, lane) : LobeShare{};
+  follow(path, block, lane, sampled, {sampled.weight, sampled.weight, cached}, index, {lobes, lobes}, batch,
+         scratch);
 }
 
 void CachedPaths::add_light(const Path& path, const ShadingBlock& p, int lane, bool record, bool guides,
-                            std::int32_t vertex, const PathPlan& plan, Scratch& scratch) const {
+                            std::int32_t vertex, const LobeShare& lobes, const PathPlan& plan,
+                            Scratch& scratch) const {
   if (!(lane_color(p.direct, lane) > 0.0f).any()) return;
   const Color passed = path.transmittance(context_, p.shadow_length[lane]) * path.scale();
   const Color direct = lane_color(p.direct, lane) * passed;
@@ -284,12 +315,12 @@ void CachedPaths::add_light(const Path& path, const ShadingBlock& p, int lane, b
   const Color wide = lane_color(p.wide_direct, lane) * passed * weight;
   const Color none = Color::Zero();
   scratch.shadow_rays.push_back(shadow_ray_at(p, lane));
-  scratch.pending.push_back(
-      {vertex, direct * weight, record && holds ? wide : none, guides && delta && !holds ? wide : none});
+  scratch.pending.push_back({vertex, direct * weight, record && holds ? wide : none,
+                             guides && delta && !holds ? wide : none, lobes});
 }
 
 void CachedPaths::follow_direct(Path& path, const PathBlock& block, int lane, bool narrow,
-                                std::int32_t vertex, Scratch& scratch) const {
+                                std::int32_t vertex, PathBatch& batch, Scratch& scratch) const {
   const DirectionSample sampled = direction_sample_at(block, lane);
   Color scattered = Color::Zero();
   if (sampled.delta) {
@@ -298,15 +329,21 @@ void CachedPaths::follow_direct(Path& path, const PathBlock& block, int lane, bo
     scattered = (sampled.weight - lane_color(block.points.wide_weight, lane)).max(0.0f);
   }
   path.emission_only = !(scattered > 0.0f).any();
-  follow(path, block, lane, sampled, {sampled.weight, scattered}, vertex, scratch);
+  RenderPasses::FirstScattering lobes;
+  if (batch.passes.any())
+    lobes = {share_of_direction(scratch.diffuse.points, lane), {Color::Zero(), sampled.transmitted}};
+  follow(path, block, lane, sampled, {sampled.weight, scattered}, vertex, lobes, batch, scratch);
 }
 
 void CachedPaths::follow(Path& path, const PathBlock& block, int lane, const DirectionSample& sampled,
-                         const VertexWeights& weights, std::int32_t vertex, Scratch& scratch) const {
+                         const VertexWeights& weights, std::int32_t vertex,
+                         const RenderPasses::FirstScattering& lobes, PathBatch& batch,
+                         Scratch& scratch) const {
   if (sampled.through_pane) {
     // Light from behind the pane belongs to the vertex before the pane, whose light samples pass it too.
     path.weights *= weights.emission;
   } else {
+    if (batch.passes.any() && path.vertex == kNone) batch.passes.first_scattering(path.index) = lobes;
     path.vertex = vertex;
     path.weights = weights;
   }
@@ -320,6 +357,7 @@ void CachedPaths::trace(std::span<const PathStart> starts, std::span<const Hit> 
                         PathBatch& batch, std::span<FirstHit> first_hits, RayCounts& counts,
                         Scratch& scratch) const {
   batch.begin(starts.size());
+  if (plan.passes) batch.passes.begin(options_.passes, 0, starts.size());
   if (plan.guides) batch.guides.resize(starts.size());
   if (plan.samples_at != QueryAt::none) batch.ends.resize(starts.size(), kNone);
   scratch.paths.resize(starts.size());
@@ -338,6 +376,8 @@ void CachedPaths::trace(std::span<const PathStart> starts, std::span<const Hit> 
       [&](const Pending& light, const Color& transmittance) {
         PathVertex& v = batch.vertices[static_cast<std::size_t>(light.vertex)];
         v.direct += light.direct * transmittance;
+        if (batch.passes.any() && v.previous == kNone)
+          batch.passes.add(v.path, light.lobes, true, v.link * light.direct * transmittance);
         if (v.record != kNone) batch.target(v.record) += light.cached * transmittance;
         if (!batch.guides.empty() && batch.guides[v.path].vertex == light.vertex)
           batch.guides[v.path].separate += light.separate * transmittance;

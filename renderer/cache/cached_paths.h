@@ -1,6 +1,7 @@
 #pragma once
 // Follows paths that may end in a query of the cache. Light sampling is the same as in the path tracer.
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -8,6 +9,7 @@
 #include "renderer/cache/cached_light.h"
 #include "renderer/cache/path_batch.h"
 #include "renderer/settings/statistics.h"
+#include "renderer/transport/lobe_shares.h"
 #include "renderer/transport/path_state.h"
 #include "renderer/transport/waves.h"
 
@@ -39,6 +41,7 @@ struct PathPlan {
   bool guides = false;
   /// The paths are samples of the picture as well, and as such end in the cache here (PathBatch::ends).
   QueryAt samples_at = QueryAt::none;
+  bool passes = false;            ///< the parts of the light of CachedPathsOptions::passes are wanted
   int most_records = kNone;       ///< for each path; kNone: no limit
   int max_depth = kNoDepthLimit;  ///< scattering events
   int min_depth = 2;              ///< before Russian roulette
@@ -60,13 +63,12 @@ struct CachedPathsOptions {
   CachedLight cached;
   float min_roughness = 0.0f;     ///< perceptual; narrower lobes are not cached
   float spread_threshold = 0.0f;  ///< of QueryAt::spread, over the spread at the first surface
+  std::vector<Aov> passes;        ///< render passes of the samples of the picture
 };
 inline CachedPathsOptions cached_paths_options(const RenderOptions& options) {
-  return {{options.direct, options.mis},
-          options.max_transmission_depth.value_or(kNoDepthLimit),
-          {options.cache.component},
-          options.cache.min_roughness,
-          options.cache.spread_threshold};
+  return {{options.direct, options.mis},  options.max_transmission_depth.value_or(kNoDepthLimit),
+          {options.cache.component},      options.cache.min_roughness,
+          options.cache.spread_threshold, passes_among(options.aovs)};
 }
 
 class CachedPaths {
@@ -80,6 +82,9 @@ class CachedPaths {
         stored_(stored),
         separate_delta_(world.lights.has_delta() && !options.cached.light_sample(true)) {
     context_.shading.separate_wide(options.min_roughness);
+    if (options.passes.empty()) return;
+    diffuse_shading_.emplace(context_.shading);
+    diffuse_shading_->separate_wide(kOnlyDiffuse);
   }
 
   /// Traces the paths. `hits` is empty or has the nearest hit of each start's ray. `first_hits` is empty or
@@ -123,20 +128,25 @@ class CachedPaths {
   /// Continues the path of a shaded lane.
   void continue_from(Path& path, const PathBlock& block, int lane, const PathPlan& plan, PathBatch& batch,
                      Scratch& scratch) const;
+  /// Shades a copy of a block, whose diffuse lobes are separate; `all_lobes`: scatter() shades the block.
+  void shade_diffuse(const PathBlock& block, bool all_lobes, PathBlock& copy) const;
   /// Adds the light sample of a lane to `vertex`, unless roulette ends it.
   void add_light(const Path& path, const ShadingBlock& points, int lane, bool record, bool guides,
-                 std::int32_t vertex, const PathPlan& plan, Scratch& scratch) const;
+                 std::int32_t vertex, const LobeShare& lobes, const PathPlan& plan, Scratch& scratch) const;
   /// Makes the next ray of a lane whose vertex has all its direct light from samples: emission that the ray
   /// finds counts for all lobes, reflected light only for the narrow ones.
   void follow_direct(Path& path, const PathBlock& block, int lane, bool narrow, std::int32_t vertex,
-                     Scratch& scratch) const;
+                     PathBatch& batch, Scratch& scratch) const;
   /// Makes the next ray of a lane, if it has one. `weights` apply from `vertex` on, unless the path only
-  /// passes a pane.
+  /// passes a pane. `lobes`: those that it follows.
   void follow(Path& path, const PathBlock& block, int lane, const DirectionSample& sampled,
-              const VertexWeights& weights, std::int32_t vertex, Scratch& scratch) const;
-  void add_emission(const Path& path, const Emission& emission, PathBatch& batch) const;
+              const VertexWeights& weights, std::int32_t vertex, const RenderPasses::FirstScattering& lobes,
+              PathBatch& batch, Scratch& scratch) const;
+  /// `background`: of the sky.
+  void add_emission(const Path& path, const Emission& emission, bool background, PathBatch& batch) const;
   PathContext context_;
   CachedPathsOptions options_;
+  std::optional<Shading> diffuse_shading_;  ///< separates the diffuse lobes, for passes
   const StoredSurfaces& stored_;
   bool separate_delta_;  ///< the light of punctual lights is sampled where paths end in the cache
 };
@@ -175,8 +185,11 @@ struct CachedPaths::Pending {
   Color direct = Color::Zero();
   Color cached = Color::Zero();
   Color separate = Color::Zero();  ///< of delta lights, by the wide lobes, where it is not cached
+  LobeShare lobes;                 ///< that reflect it; only for passes
 };
 
-struct CachedPaths::Scratch : Waves<CachedPaths::Path, CachedPaths::Pending> {};
+struct CachedPaths::Scratch : Waves<CachedPaths::Path, CachedPaths::Pending> {
+  PathBlock diffuse;  ///< a copy of a block whose diffuse lobes are separate
+};
 
 }  // namespace gatelight::renderer

@@ -22,6 +22,8 @@ void PathBatch::begin(std::size_t paths) {
   first_records.assign(paths, kNone);
   ends.clear();
   guides.clear();
+  passes.begin({}, 0, 0);
+  answer_lobes.clear();
   unstored_hits = 0;
 }
 
@@ -61,13 +63,19 @@ void PathBatch::resolve(std::span<const float> answers, std::span<Color> radianc
     const PathVertex& v = vertices[i];
     if (v.record != kNone) target(v.record) /= v.reflectance;
     Color reflected = v.direct;
-    if (v.query != kNone) reflected += v.reflectance * color_at(answers, v.query);
+    if (v.query != kNone) {
+      const Color answer = v.reflectance * color_at(answers, v.query);
+      reflected += answer;
+      if (passes.any() && v.previous == kNone) passes.add(v.path, answer_lobes[i], false, v.link * answer);
+    }
     if (v.previous == kNone) {
       if (!radiance.empty()) radiance[v.path] += v.link * reflected;
       continue;
     }
     PathVertex& previous = vertices[static_cast<std::size_t>(v.previous)];
     previous.direct += v.link * reflected;
+    if (passes.any() && previous.previous == kNone)
+      passes.add_indirect(v.path, previous.link * v.link * reflected);
     if (previous.record != kNone) target(previous.record) += v.cached_link * reflected;
   }
 }
@@ -83,7 +91,7 @@ void PathBatch::copy_ends(SurfacePoints& points, std::size_t at) const {
   }
 }
 
-void PathBatch::end_samples(std::span<const float> answers, std::span<Color> radiance) const {
+void PathBatch::end_samples(std::span<const float> answers, std::span<Color> radiance) {
   std::int32_t answer = 0;
   for (const std::int32_t end : ends) {
     if (end == kNone) continue;
@@ -91,7 +99,15 @@ void PathBatch::end_samples(std::span<const float> answers, std::span<Color> rad
     Color change = v.reflectance * (color_at(answers, answer++) - color_at(targets, v.record));
     for (std::int32_t at = end; at != kNone; at = vertices[static_cast<std::size_t>(at)].previous)
       change *= vertices[static_cast<std::size_t>(at)].link;
-    radiance[v.path] = (radiance[v.path] + change).max(0.0f);
+    const Color before = radiance[v.path];
+    radiance[v.path] = (before + change).max(0.0f);
+    if (!passes.any()) continue;
+    const Color added = radiance[v.path] - before;
+    if (v.previous == kNone) {
+      passes.add(v.path, answer_lobes[static_cast<std::size_t>(end)], false, added);
+    } else {
+      passes.add_indirect(v.path, added);
+    }
   }
 }
 

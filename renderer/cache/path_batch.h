@@ -8,6 +8,7 @@
 
 #include "renderer/cache/surface_points.h"
 #include "renderer/film/camera_sample.h"
+#include "renderer/film/render_passes.h"
 
 namespace gatelight::renderer {
 
@@ -57,6 +58,9 @@ struct PathBatch {
   /// PathPlan::samples_at.
   std::vector<std::int32_t> ends;
   std::vector<PathGuide> guides;  ///< for each path; empty unless PathPlan::guides
+  RenderPasses passes;            ///< of the samples of the picture, if PathPlan::passes
+  /// For each vertex the lobes of the cache's answer there; empty without passes.
+  std::vector<LobeShare> answer_lobes;
   std::uint64_t unstored_hits = 0;
 
   std::size_t paths() const { return emission.size(); }
@@ -72,7 +76,7 @@ struct PathBatch {
   void write_guides(std::span<const float> answers, std::span<FirstHit> first_hits) const;
 
   /// Sums up from the ends. Call it once. answers: 3 floats for each query, radiance over reflectance.
-  /// radiance: one for each path, or empty. Completes `targets`.
+  /// radiance: one for each path, or empty. Completes `targets` and `passes`.
   void resolve(std::span<const float> answers, std::span<Color> radiance);
 
   /// The number of samples that end in the cache.
@@ -81,7 +85,7 @@ struct PathBatch {
   void copy_ends(SurfacePoints& points, std::size_t at) const;
   /// Ends the samples in the cache: replaces the cached part of the light that the paths have found at `ends`
   /// by the cache's answers, in the order of copy_ends(). Call it after resolve().
-  void end_samples(std::span<const float> answers, std::span<Color> radiance) const;
+  void end_samples(std::span<const float> answers, std::span<Color> radiance);
 
   /// Merges the first records of each `times` consecutive paths, which begin at the same point, into one with
   /// the mean target. Where a mirror or glass at that point sent the paths to several points, each gets one.

@@ -18,6 +18,7 @@ RadianceRecords::RadianceRecords(const CachedPaths& paths, const TrainingPoints&
                                  const RenderOptions& options, const PointInputs& inputs)
     : paths_(paths), points_(points), options_(options), inputs_(inputs) {
   guides_ = has(options.aovs, Aov::cache_radiance);
+  passes_ = passes_among(options.aovs).size();
 }
 
 RecordRequest RadianceRecords::request(const CacheSetup& setup, std::uint64_t step, std::uint64_t records,
@@ -52,6 +53,7 @@ void RadianceRecords::begin(const RecordRequest& request, RecordBatch& batch) {
   if (samples) {
     plan.samples_at = options_.cache.query_at;
     plan.guides = guides_;
+    plan.passes = passes_ > 0;
   }
   plan.end_after_records = request.self_training ? options_.cache.self_training.vertices : kNone;
   // In a path of limited length later vertices have less light than the first, at the same nodes. So only the
@@ -100,6 +102,7 @@ void RadianceRecords::ask_together(const AnswerPoints& answer, RecordBatch& batc
 void RadianceRecords::finish(const AnswerPoints& answer, RecordBatch& batch) {
   const bool samples = !batch.starts.samples.empty();
   batch.radiance.resize(batch.starts.samples.size());
+  batch.parts.resize(passes_ * batch.starts.samples.size());
   const auto queries = [](const PathBatch& paths, SurfacePoints&) -> const SurfacePoints& {
     return paths.queries;
   };
@@ -116,6 +119,8 @@ void RadianceRecords::finish(const AnswerPoints& answer, RecordBatch& batch) {
     const auto radiance = std::span(batch.radiance).subspan(first, batch.paths[block].paths());
     if (!batch.traced.empty()) std::copy(radiance.begin(), radiance.end(), &batch.traced[first]);
     batch.paths[block].end_samples(answers, radiance);
+    const std::span<const Color> parts = batch.paths[block].passes.parts();
+    std::copy(parts.begin(), parts.end(), batch.parts.begin() + static_cast<std::ptrdiff_t>(first * passes_));
   };
   if (!answer.threads) {  // a device, which needs the points of all blocks at once
     ask_together(answer, batch, queries, resolve_block);

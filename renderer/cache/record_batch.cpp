@@ -10,11 +10,13 @@ namespace gatelight::renderer {
 
 void RecordBatch::add_to(Film& film, const RenderOptions& options,
                          const std::function<bool(const Pixel&)>& wanted, SampleCounts& counts) const {
-  tbb::enumerable_thread_specific<SampleCounts> parts;
+  tbb::enumerable_thread_specific<SampleCounts> counted;
   for_each(radiance.empty() ? 0 : starts.blocks(), [&](std::size_t b) {
     std::vector<PixelSample> samples;
     std::vector<SampleResult> results;
     std::vector<FirstHit> hits;
+    std::vector<Color> light;
+    const std::size_t count = film.parts().size();
     for (std::size_t i = starts.offsets[b]; i < starts.offsets[b + 1]; ++i) {
       const PixelSample& sample = starts.samples[i];
       if (!wanted(sample.pixel)) continue;
@@ -23,10 +25,12 @@ void RecordBatch::add_to(Film& film, const RenderOptions& options,
       samples.push_back(sample);
       results.push_back({radiance[i]});
       if (film.needs_first_hits()) hits.push_back(first_hits[i]);
+      const auto begin = parts.begin() + static_cast<std::ptrdiff_t>(i * count);
+      light.insert(light.end(), begin, begin + static_cast<std::ptrdiff_t>(count));
     }
-    add_to_film(samples, options, results, hits, film, parts.local());
+    add_to_film(samples, options, results, hits, film, counted.local(), light);
   });
-  for (const SampleCounts& part : parts) counts.add(part);
+  for (const SampleCounts& part : counted) counts.add(part);
   keep_first(counts.located);
 }
 

@@ -9,6 +9,17 @@
 namespace gatelight::renderer {
 namespace {
 
+/// The parts of a sample of the picture.
+std::span<Color> parts_of(RecordBatch& batch, std::size_t sample) {
+  const std::size_t count = batch.parts.size() / batch.starts.samples.size();
+  return std::span(batch.parts).subspan(sample * count, count);
+}
+std::span<const Color> parts_of(const RecordBatch& batch, std::size_t sample) {
+  const std::size_t count = batch.parts.size() / batch.starts.samples.size();
+  return std::span(batch.parts).subspan(sample * count, count);
+}
+
+
 /// Work of the slowest rank after which the shares of the ranks are adjusted.
 constexpr double kRebalanceSeconds = 0.5;
 
@@ -32,6 +43,7 @@ Bytes pack_records(const RecordBatch& batch, const RankTiles& ranks, const RankW
       packer.add(batch.radiance[i]);
       if (!batch.traced.empty()) packer.add(batch.traced[i]);
       packer.add(batch.first_hits[i]);
+      packer.add_all(parts_of(batch, i));
     }
   }
   return packer.take();
@@ -58,10 +70,13 @@ std::vector<RankWork> unpack_records(const std::vector<Bytes>& all, const RankTi
       const auto radiance = unpacker.read<Color>();
       const auto traced = batch.traced.empty() ? radiance : unpacker.read<Color>();
       const auto first = unpacker.read<FirstHit>();
+      std::vector<Color> parts(parts_of(batch, i).size());
+      unpacker.read_all(std::span(parts));
       if (!ranks.owns(batch.starts.samples[i].pixel)) continue;
       batch.radiance[i] = radiance;
       if (!batch.traced.empty()) batch.traced[i] = traced;
       batch.first_hits[i] = first;
+      std::copy(parts.begin(), parts.end(), parts_of(batch, i).begin());
     }
   }
   return work;

@@ -132,19 +132,17 @@ void scale_layer(Layer& layer, const Film& film, const ScaleDown& scale) {
   if (scale.factor() == 1) return;
   const int f = scale.factor(), width = film.rect().width(), height = film.rect().height();
   const auto channels = static_cast<int>(layer.channels.size());
-  const bool of_places = layer.name == enum_name(Aov::primitive_id) ||
-                         layer.name == enum_name(Aov::instance_id) || layer.name == enum_name(Aov::depth) ||
-                         layer.name == enum_name(Aov::position);
-  if (!of_places) {
+  const AovInfo* const aov = find_aov(layer.name);
+  const AovScaling scaling = aov ? aov->scaling : AovScaling::mean;
+  if (scaling != AovScaling::first) {
     layer.values = scale.scale(layer.values, channels, width, height, 0, 0, height / f);
     const auto times = static_cast<float>(f * f);
-    if (layer.name == enum_name(Aov::sample_count))
+    if (scaling == AovScaling::sum)
       for (float& value : layer.values) value *= times;
-    if (layer.name == enum_name(Aov::variance))
+    if (scaling == AovScaling::mean_variance)
       for (float& value : layer.values) value /= times;
     return;
   }
-  // Places and ids have no mean: those of the first of the pixels are taken.
   std::vector<float> values;
   for (int y = 0; y < height; y += f) {
     for (int x = 0; x < width; x += f) {
@@ -190,6 +188,7 @@ class Finisher {
     if (f_.after_denoising) f_.after_denoising(*denoised);
     FinishedPicture result{.picture = layers(), .denoised = true};
     result.picture.layers.front().values = std::move(denoised->color);
+    if (options_.denoise.parts && !denoise_parts(result.picture)) return std::nullopt;
     if (estimates_error()) {
       Layer* const error = find(result.picture, Aov::error);
       if (!(error ? report_errors(result, error->values) : report_error(result))) return std::nullopt;
@@ -236,6 +235,42 @@ class Finisher {
     picture.full_width /= f_.scale.factor();
     picture.full_height /= f_.scale.factor();
     return picture;
+  }
+
+  /// Denoises the layers of the parts of the light, each with the picture's guides.
+  bool denoise_parts(Picture& picture) const {
+    std::vector<Layer*> groups, passes;
+    for (std::size_t number = 0; number < film_.parts().size(); ++number) {
+      const std::string& name = film_.parts()[number];
+      Layer& layer = *std::find_if(picture.layers.begin(), picture.layers.end(),
+                                   [&](const Layer& l) { return l.name == name; });
+      (find_aov(name) ? passes : groups).push_back(&layer);
+      if (std::all_of(layer.values.begin(), layer.values.end(), [](float value) { return value == 0.0f; }))
+        continue;
+      NoisyPicture light = noisy(film_, options_, Plane::mean);
+      light.color = [this, number](int first, int end) {
+        return film_.part(number, film_.rect().y0 + first, film_.rect().y0 + end);
+      };
+      auto denoised = denoise(*f_.denoiser, light, {.prefilter = options_.denoise.prefilter}, f_.scale,
+                              part(kShareOfPicture, kShareOfPicture));
+      if (!denoised) return false;
+      layer.values = std::move(denoised->color);
+    }
+    scale_to(picture.layers.front(), groups);
+    if (passes.size() == all_passes().size()) scale_to(picture.layers.front(), passes);
+    return true;
+  }
+
+  /// Scales the parts so that their sum is the whole. Light that no part has goes to the first.
+  static void scale_to(const Layer& whole, const std::vector<Layer*>& parts) {
+    for (std::size_t i = 0; i < whole.values.size() && !parts.empty(); ++i) {
+      double sum = 0.0;
+      for (const Layer* part : parts) sum += static_cast<double>(part->values[i]);
+      const double scale = sum > 0.0 ? static_cast<double>(whole.values[i]) / sum : 0.0;
+      for (Layer* part : parts)
+        part->values[i] = static_cast<float>(scale * static_cast<double>(part->values[i]));
+      if (!(sum > 0.0)) parts.front()->values[i] = whole.values[i];
+    }
   }
 
   bool report_error(FinishedPicture& result) const {

@@ -8,15 +8,14 @@
 #include <utility>
 
 #include "base/parallel/loops.h"
+#include "renderer/settings/light_group_options.h"
 
 namespace gatelight::renderer {
 
 namespace {
 
 bool from_first_hit(Aov aov) {
-  constexpr Aov kOthers[] = {Aov::sample_count, Aov::variance,  Aov::raw,    Aov::error,
-                             Aov::alpha,        Aov::denoising, Aov::motion, Aov::motion_next};
-  return !has(kOthers, aov);
+  return info_of(aov).source == AovSource::first_hit;
 }
 
 template <class Number, class Vector>
@@ -38,19 +37,22 @@ FilmSums empty_sums(const FilmContents& contents, std::size_t pixels) {
       std::fill(sums.first_hits.begin() + begin, sums.first_hits.begin() + end, FirstHitSum());
     });
   }
-  if (!contents.light_groups.empty()) keep(sums.light_groups, pixels * contents.light_groups.size());
+  if (!contents.parts.empty()) keep(sums.parts, pixels * contents.parts.size());
   return sums;
 }
 
 }  // namespace
 
-FilmContents film_contents(const RenderOptions& options, std::vector<std::string> light_groups) {
+FilmContents film_contents(const RenderOptions& options, const std::vector<std::string>& light_groups) {
   const bool denoised = options.denoise.denoiser != DenoiserKind::none;
+  std::vector<std::string> parts;
+  for (const std::string& group : light_groups) parts.push_back(kLightLayer + group);
+  for (const Aov pass : passes_among(options.aovs)) parts.emplace_back(info_of(pass).name);
   return {.aovs = options.aovs,
           .half = denoised,
           .guides = denoised || has(options.aovs, Aov::denoising),
           .alpha = options.background.is_separate() || has(options.aovs, Aov::alpha),
-          .light_groups = std::move(light_groups)};
+          .parts = std::move(parts)};
 }
 
 Film::Film(PixelRect rect, int full_width, int full_height, FilmContents contents)
@@ -119,10 +121,10 @@ void Film::add_first_hit(FirstHitSum& p, const FirstHit& first) {
 }
 
 void Film::add_parts(const Pixel& p, std::span<const Color> parts, float scale) {
-  const std::size_t first = at(p) * contents_.light_groups.size();
+  const std::size_t first = at(p) * contents_.parts.size();
   for (std::size_t g = 0; g < parts.size(); ++g) {
     for (std::size_t i = 0; i < 3; ++i)
-      sums_.light_groups[first + g][i] +=
+      sums_.parts[first + g][i] +=
           static_cast<double>(parts[g][static_cast<Eigen::Index>(i)]) * static_cast<double>(scale);
   }
 }

@@ -18,15 +18,16 @@ namespace gatelight::renderer {
 
 /// The data that a film keeps in addition to the sums of its samples.
 struct FilmContents {
-  std::vector<Aov> aovs;                  ///< layers of resolve()
-  bool half = false;                      ///< the mean of every other sample
-  bool guides = false;                    ///< albedo and normal behind mirrors and clear glass
-  bool alpha = false;                     ///< 1 minus the visible share of the background
-  std::vector<std::string> light_groups;  ///< names of groups, whose parts it keeps
+  std::vector<Aov> aovs;  ///< layers of resolve()
+  bool half = false;      ///< the mean of every other sample
+  bool guides = false;    ///< albedo and normal behind mirrors and clear glass
+  bool alpha = false;     ///< 1 minus the visible share of the background
+  /// The layers of parts of the light: of each light group, then the passes among `aovs`.
+  std::vector<std::string> parts;
 };
 
 /// The contents that these options need. A denoiser that is not chosen yet counts as one.
-FilmContents film_contents(const RenderOptions& options, std::vector<std::string> light_groups = {});
+FilmContents film_contents(const RenderOptions& options, const std::vector<std::string>& light_groups = {});
 
 /// Planes of a film that are no layers of resolve().
 enum class Plane : std::uint8_t {
@@ -48,7 +49,8 @@ class Film {
   bool needs_first_hits() const {
     return !sums_.guides.empty() || !sums_.alpha.empty() || !sums_.first_hits.empty();
   }
-  const std::vector<std::string>& light_groups() const { return contents_.light_groups; }
+  /// The layers of the parts of its light.
+  const std::vector<std::string>& parts() const { return contents_.parts; }
 
   /// Number of samples of a pixel so far, including dropped ones.
   std::uint32_t taken(const Pixel& p) const { return sums_.radiance[at(p)].taken; }
@@ -62,10 +64,10 @@ class Film {
   /// Adds a sample that was taken. The samples of a pixel come in the order of their numbers.
   void add(const PixelSample& sample, const Color& radiance);
   void add(const PixelSample& sample, const FirstHit& first);
-  /// Adds the light of each group, times `scale`, for a sample that was added.
+  /// Adds the light of each part, times `scale`, for a sample that was added.
   void add_parts(const Pixel& p, std::span<const Color> parts, float scale);
 
-  /// The means so far, and the layers of the output variables but Aov::denoising and those of motion. A
+  /// The means so far, the layers of the output variables but AovSource::other, and the parts of the light. A
   /// pixel without samples is black. Runs in the caller's arena.
   Picture resolve() const { return resolve(rect_.y0, rect_.y1); }
   /// The same for the rows first <= y < end.
@@ -74,7 +76,9 @@ class Film {
   /// A plane of the rows first <= y < end. The film must keep it. A pixel without samples is 0, and one
   /// without samples of a half has the mean of all. Runs in the caller's arena.
   std::vector<float> plane(Plane plane, int first, int end) const;
-  /// The layer of an output variable. Those of the primary hit need a film that keeps it.
+  /// The same of a part of the light: 3 floats a pixel.
+  std::vector<float> part(std::size_t number, int first, int end) const;
+  /// The layer of an output variable that is no pass. Those of the primary hit need a film that keeps it.
   Layer layer(Aov aov) const { return layer(aov, {0, pixels()}); }
   /// Mean number of samples of a pixel that were not dropped.
   double samples_per_pixel() const;

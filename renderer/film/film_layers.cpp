@@ -6,8 +6,6 @@
 
 #include "base/finite_float.h"
 #include "renderer/film/film.h"
-#include "renderer/settings/enum_names.h"
-#include "renderer/settings/light_group_options.h"
 
 #include "base/parallel/loops.h"
 
@@ -36,77 +34,66 @@ double over(double sum, std::uint32_t count) {
 /// beauty layer, so edges stay soft.
 struct VectorLayer {
   Aov aov;
-  const char* channels;
   std::array<double, 3> FirstHitSum::*sum;
   std::uint32_t FirstHitSum::*count;
 };
 constexpr VectorLayer kVectors[] = {
-    {Aov::albedo, "RGB", &FirstHitSum::albedo, &FirstHitSum::count},
-    {Aov::normal, "XYZ", &FirstHitSum::normal, &FirstHitSum::count},
-    {Aov::position, "XYZ", &FirstHitSum::position, &FirstHitSum::hits},
-    {Aov::cache_radiance, "RGB", &FirstHitSum::cache, &FirstHitSum::cached},
-    {Aov::cache_answer, "RGB", &FirstHitSum::answer, &FirstHitSum::count},
-    {Aov::nearest_node, "RGB", &FirstHitSum::node, &FirstHitSum::count},
+    {Aov::albedo, &FirstHitSum::albedo, &FirstHitSum::count},
+    {Aov::normal, &FirstHitSum::normal, &FirstHitSum::count},
+    {Aov::position, &FirstHitSum::position, &FirstHitSum::hits},
+    {Aov::cache_radiance, &FirstHitSum::cache, &FirstHitSum::cached},
+    {Aov::cache_answer, &FirstHitSum::answer, &FirstHitSum::count},
+    {Aov::nearest_node, &FirstHitSum::node, &FirstHitSum::count},
 };
 struct NumberLayer {
   Aov aov;
-  const char* channel;
   double FirstHitSum::*sum;
   std::uint32_t FirstHitSum::*count;
 };
 constexpr NumberLayer kNumbers[] = {
-    {Aov::depth, "Z", &FirstHitSum::depth, &FirstHitSum::hits},
-    {Aov::cache_error, "error", &FirstHitSum::error, &FirstHitSum::queried},
-    {Aov::training_count, "count", &FirstHitSum::training_count, &FirstHitSum::queried},
-    {Aov::resolution, "R", &FirstHitSum::resolution, &FirstHitSum::queried},
+    {Aov::depth, &FirstHitSum::depth, &FirstHitSum::hits},
+    {Aov::cache_error, &FirstHitSum::error, &FirstHitSum::queried},
+    {Aov::training_count, &FirstHitSum::training_count, &FirstHitSum::queried},
+    {Aov::resolution, &FirstHitSum::resolution, &FirstHitSum::queried},
 };
 
 }  // namespace
 
 Layer Film::layer(Aov aov, Range range) const {
-  Layer layer;
-  layer.name = enum_name(aov);
-  layer.full_precision =
-      aov != Aov::albedo && aov != Aov::normal && aov != Aov::cache_answer && aov != Aov::nearest_node;
-  const auto fill_with = [&](std::vector<std::string> channels, auto&& value) {
-    layer.channels = std::move(channels);
-    fill(layer, range, value);
-  };
+  const AovInfo& info = info_of(aov);
+  Layer layer{.name = std::string(info.name), .channels = channels_of(info), .full_precision = !info.half};
+  const auto fill_with = [&](auto&& value) { fill(layer, range, value); };
   const HugeBuffer<FirstHitSum>& first = sums_.first_hits;
   const HugeBuffer<RadianceSum>& radiance = sums_.radiance;
   for (const VectorLayer& v : kVectors) {
     if (v.aov != aov) continue;
-    fill_with({std::string(1, v.channels[0]), std::string(1, v.channels[1]), std::string(1, v.channels[2])},
-              [&](std::size_t p, std::size_t i) { return over((first[p].*v.sum)[i], first[p].*v.count); });
+    fill_with([&](std::size_t p, std::size_t i) { return over((first[p].*v.sum)[i], first[p].*v.count); });
   }
   for (const NumberLayer& n : kNumbers) {
     if (n.aov != aov) continue;
-    fill_with({n.channel},
-              [&](std::size_t p, std::size_t) { return over(first[p].*n.sum, first[p].*n.count); });
+    fill_with([&](std::size_t p, std::size_t) { return over(first[p].*n.sum, first[p].*n.count); });
   }
-  const std::vector<std::string> rgb = {"R", "G", "B"};
   switch (aov) {
     case Aov::primitive_id:
-      fill_with({"id"}, [&](std::size_t p, std::size_t) { return first[p].primitive; });
+      fill_with([&](std::size_t p, std::size_t) { return first[p].primitive; });
       break;
     case Aov::instance_id:
-      fill_with({"id"}, [&](std::size_t p, std::size_t) { return first[p].instance; });
+      fill_with([&](std::size_t p, std::size_t) { return first[p].instance; });
       break;
     case Aov::alpha:
-      fill_with({"A"}, [&](std::size_t p, std::size_t) { return over(sums_.alpha[p], radiance[p].taken); });
+      fill_with([&](std::size_t p, std::size_t) { return over(sums_.alpha[p], radiance[p].taken); });
       break;
     case Aov::sample_count:
-      fill_with({"count"}, [&](std::size_t p, std::size_t) { return radiance[p].count; });
+      fill_with([&](std::size_t p, std::size_t) { return radiance[p].count; });
       break;
     case Aov::variance:
-      fill_with(rgb, [&](std::size_t p, std::size_t i) { return variance_of_mean(radiance[p], i); });
+      fill_with([&](std::size_t p, std::size_t i) { return variance_of_mean(radiance[p], i); });
       break;
     case Aov::raw:
-      fill_with(rgb, [&](std::size_t p, std::size_t i) { return mean(radiance[p], i); });
+      fill_with([&](std::size_t p, std::size_t i) { return mean(radiance[p], i); });
       break;
     case Aov::error:
-      fill_with(rgb,
-                [&](std::size_t p, std::size_t i) { return std::sqrt(variance_of_mean(radiance[p], i)); });
+      fill_with([&](std::size_t p, std::size_t i) { return std::sqrt(variance_of_mean(radiance[p], i)); });
       break;
     default:
       break;
@@ -142,6 +129,16 @@ std::vector<float> Film::plane(Plane plane, int first, int end) const {
   return std::move(layer.values);
 }
 
+std::vector<float> Film::part(std::size_t number, int first, int end) const {
+  const Range range{rect_.index(rect_.x0, first), rect_.index(rect_.x0, end)};
+  Layer layer{.channels = {"R", "G", "B"}};
+  const std::size_t parts = contents_.parts.size();
+  fill(layer, range, [&](std::size_t p, std::size_t i) {
+    return over(sums_.parts[p * parts + number][i], sums_.radiance[p].count);
+  });
+  return std::move(layer.values);
+}
+
 Picture Film::resolve(int first, int end) const {
   const auto begin_of = [&](int y) { return rect_.index(rect_.x0, y); };
   const Range range{begin_of(first), begin_of(end)};
@@ -153,17 +150,15 @@ Picture Film::resolve(int first, int end) const {
                   .full_height = full_height_};
   picture.layers.push_back({.channels = {"R", "G", "B"}, .values = plane(Plane::mean, first, end)});
   for (const Aov aov : contents_.aovs) {
-    constexpr Aov kOfOthers[] = {Aov::denoising, Aov::motion, Aov::motion_next};
-    if (!has(kOfOthers, aov)) picture.layers.push_back(layer(aov, range));
+    const AovSource source = info_of(aov).source;
+    if (source == AovSource::first_hit || source == AovSource::samples)
+      picture.layers.push_back(layer(aov, range));
   }
-  const std::size_t groups = contents_.light_groups.size();
-  for (std::size_t g = 0; g < groups; ++g) {
-    Layer light{
-        .name = kLightLayer + contents_.light_groups[g], .channels = {"R", "G", "B"}, .full_precision = true};
-    fill(light, range, [&](std::size_t p, std::size_t i) {
-      return over(sums_.light_groups[p * groups + g][i], sums_.radiance[p].count);
-    });
-    picture.layers.push_back(std::move(light));
+  for (std::size_t number = 0; number < contents_.parts.size(); ++number) {
+    picture.layers.push_back({.name = contents_.parts[number],
+                              .channels = {"R", "G", "B"},
+                              .values = part(number, first, end),
+                              .full_precision = true});
   }
   return picture;
 }

@@ -51,7 +51,7 @@ void keep_first(std::vector<NonFiniteSample>& samples) {
 void add_to_film(std::span<const PixelSample> samples, const RenderOptions& options,
                  std::span<const SampleResult> results, std::span<const FirstHit> first_hits, Film& film,
                  SampleCounts& counts, std::span<const Color> parts) {
-  const std::size_t groups = parts.empty() ? 0 : film.light_groups().size();
+  const std::size_t count = parts.empty() ? 0 : film.parts().size();
   for (std::size_t i = 0; i < samples.size(); ++i) {
     Color radiance = results[i].radiance;
     if (!first_hits.empty()) film.add(samples[i], first_hits[i]);
@@ -72,7 +72,7 @@ void add_to_film(std::span<const PixelSample> samples, const RenderOptions& opti
       }
     }
     film.add(samples[i], radiance);
-    if (groups > 0) film.add_parts(samples[i].pixel, parts.subspan(i * groups, groups), scale);
+    if (count > 0) film.add_parts(samples[i].pixel, parts.subspan(i * count, count), scale);
   }
 }
 

@@ -37,7 +37,7 @@ struct SampleCounts {
 void keep_first(std::vector<NonFiniteSample>& samples);
 
 /// Adds the results of samples that were taken from the film. `first_hits` is empty or as long as `samples`.
-/// `parts` is empty, or has for each sample the light of each group of the film.
+/// `parts` is empty, or has for each sample the light of each part that the film keeps.
 void add_to_film(std::span<const PixelSample> samples, const RenderOptions& options,
                  std::span<const SampleResult> results, std::span<const FirstHit> first_hits, Film& film,
                  SampleCounts& counts, std::span<const Color> parts = {});

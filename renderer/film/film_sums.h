@@ -60,7 +60,7 @@ struct FilmSums {
   HugeBuffer<GuideSum> guides;
   HugeBuffer<double> alpha;
   HugeBuffer<FirstHitSum> first_hits;
-  HugeBuffer<std::array<double, 3>> light_groups;  ///< all groups of a pixel, then those of the next
+  HugeBuffer<std::array<double, 3>> parts;  ///< all parts of a pixel, then those of the next
 
   /// Calls visit(name, plane) for each plane of `sums`, a FilmSums or a const one.
   template <class Sums, class Visit>
@@ -70,7 +70,7 @@ struct FilmSums {
     visit("guides", sums.guides);
     visit("alpha", sums.alpha);
     visit("first_hits", sums.first_hits);
-    visit("light_groups", sums.light_groups);
+    visit("parts", sums.parts);
   }
 
   /// Appends the sums of the pixel with this index.

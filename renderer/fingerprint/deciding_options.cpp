@@ -141,7 +141,7 @@ void add_background(Texts& texts, const BackgroundOptions& options) {
 // The scene's fingerprint stands for the environment, `view` for the camera, `machine` for the instruction
 // set. Cryptomattes are neither in films nor in checkpoints.
 NamedTexts deciding_options(const RenderOptions& options, const View& view, const NamedTexts& machine) {
-  [[maybe_unused]] const auto& [denoiser, prefilter, supersampling, temporal, library] = options.denoise;
+  [[maybe_unused]] const auto& [denoiser, prefilter, supersampling, temporal, parts, library] = options.denoise;
   std::vector<std::string> layers;
   for (const Aov aov : options.aovs) layers.push_back(enum_name(aov));
   Texts texts;

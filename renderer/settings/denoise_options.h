@@ -16,6 +16,7 @@ struct DenoiseOptions {
   /// Pixels of the film in one of the picture.
   int film_pixels_per_pixel() const { return supersampling * supersampling; }
   bool temporal = true;  ///< frames of an animation take over samples of earlier ones (temporal/history.h)
+  bool parts = false;    ///< denoises the layers of passes and of light groups too
   std::string library;   ///< of the denoiser: its file or folder; empty: searched (denoise/oidn_library.h)
 };
 

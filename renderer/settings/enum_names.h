@@ -1,11 +1,14 @@
 #pragma once
 // The names of the enumerations on the command line and in files: one table each, for both directions.
 
+#include <array>
+#include <iterator>
 #include <span>
 #include <string>
 #include <string_view>
 
 #include "renderer/image/tonemap.h"
+#include "renderer/settings/aovs.h"
 #include "renderer/settings/presets.h"
 
 namespace gatelight::renderer {
@@ -66,26 +69,11 @@ template <>
 inline constexpr Choice<Prefilter> kEnumNames<Prefilter>[] = {
     {"accurate", Prefilter::accurate}, {"fast", Prefilter::fast}, {"none", Prefilter::none}};
 template <>
-inline constexpr Choice<Aov> kEnumNames<Aov>[] = {{"albedo", Aov::albedo},
-                                                  {"normal", Aov::normal},
-                                                  {"depth", Aov::depth},
-                                                  {"position", Aov::position},
-                                                  {"primitive", Aov::primitive_id},
-                                                  {"instance", Aov::instance_id},
-                                                  {"alpha", Aov::alpha},
-                                                  {"samples", Aov::sample_count},
-                                                  {"variance", Aov::variance},
-                                                  {"raw", Aov::raw},
-                                                  {"error", Aov::error},
-                                                  {"denoising", Aov::denoising},
-                                                  {"motion", Aov::motion},
-                                                  {"motion-next", Aov::motion_next},
-                                                  {"cache-radiance", Aov::cache_radiance},
-                                                  {"cache-answer", Aov::cache_answer},
-                                                  {"cache-error", Aov::cache_error},
-                                                  {"training-count", Aov::training_count},
-                                                  {"resolution", Aov::resolution},
-                                                  {"nearest-node", Aov::nearest_node}};
+inline constexpr auto kEnumNames<Aov> = [] {
+  std::array<Choice<Aov>, std::size(kAovs)> names{};
+  for (std::size_t i = 0; i < names.size(); ++i) names[i] = {kAovs[i].name, kAovs[i].aov};
+  return names;
+}();
 template <>
 inline constexpr Choice<MatteKind> kEnumNames<MatteKind>[] = {{"object", MatteKind::object},
                                                               {"material", MatteKind::material}};

@@ -1,9 +1,7 @@
 #pragma once
 // The enumerations of the options. enum_names.h has their names.
 
-#include <algorithm>
 #include <cstdint>
-#include <span>
 
 namespace gatelight::renderer {
 
@@ -46,33 +44,6 @@ enum class Prefilter : std::uint8_t {
   fast,      ///< read as they are by the smaller network, which expects noise in them
   none,      ///< read as they are by the larger network, which expects none
 };
-
-enum class Aov : std::uint8_t {
-  albedo,
-  normal,
-  depth,
-  position,
-  primitive_id,
-  instance_id,
-  alpha,  ///< 1 less the visible share of the background
-  sample_count,
-  variance,
-  raw,          ///< the samples' mean
-  error,        ///< estimated standard error of the picture
-  denoising,    ///< the layers from which the picture can be denoised later (denoise/README.md)
-  motion,       ///< of the surface in the picture since the frame before: pixels, x to the right, y up
-  motion_next,  ///< the same until the next frame
-  // Outputs of the cache, at the vertex of its first query; black without one.
-  cache_radiance,  ///< the picture that it gives without any further path
-  cache_answer,    ///< its answer, before reflectance
-  cache_error,     ///< squared relative error of the answer against one record traced there
-  training_count,  ///< steps that trained the triangle
-  resolution,      ///< R of the instance's first level
-  nearest_node     ///< a colour for each node of the first level: the Voronoi cells of mesh colours
-};
-inline bool has(std::span<const Aov> aovs, Aov aov) {
-  return std::find(aovs.begin(), aovs.end(), aov) != aovs.end();
-}
 
 /// Kinds of names that a Cryptomatte separates.
 enum class MatteKind : std::uint8_t { object, material };

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "renderer/settings/aovs.h"
 #include "renderer/settings/background_options.h"
 #include "renderer/settings/cache_options.h"
 #include "renderer/settings/denoise_options.h"

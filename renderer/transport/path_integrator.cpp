@@ -8,22 +8,23 @@ PathBlock* PathIntegrator::scatter(std::uint32_t number, PathState& path, const 
                                    Color& radiance, FirstHit* first, Scratch& scratch) const {
   const LightGroups& groups = context_.world.light_groups;
   // `group` returns the light group of the emission.
-  const auto add = [&](const Emission& emission, const auto& group) {
+  const auto add = [&](const Emission& emission, bool background, const auto& group) {
     if (!emission.any()) return;
     const Color light = path.carried() * emission.radiance * emission.weight;
     radiance += light;
-    if (!groups.empty()) scratch.parts[path.index * groups.size() + group()] += light;
+    if (!groups.empty()) scratch.passes.add_to_group(path.index, group(), light);
+    if (scratch.passes.any()) scratch.passes.add_found(path.index, path.depth, background, light);
   };
   if (!hit || path.looks_through(context_, hit)) {
     if (first) record_background(path, *first);
     const Emission sky = path.sky(context_, ray.direction);
-    add(sky, [&] { return groups.of_environment(); });
+    add(sky, true, [&] { return groups.of_environment(); });
     return nullptr;
   }
   SurfaceInteraction m = path.intersect(context_, ray, hit, options_.max_depth);
   if (first && path.surfaces == 0) *first = first_hit(hit, m.surface, context_.world.scene.origin);
   if (first) record_guide(path, m, *first);
-  add(m.emission, [&] { return groups.of_instance(hit.instance); });
+  add(m.emission, false, [&] { return groups.of_instance(hit.instance); });
   if (m.ends) return nullptr;
   PathBlock& block = scratch.block_of(0, path.kernels_shade(m));
   path.enqueue(context_, m, number, options_.min_depth, block);
@@ -39,7 +40,12 @@ void PathIntegrator::add_light(const PathState& path, const ShadingBlock& points
   const float weight = path.shadow_weight(contribution.maxCoeff(), path.contribution_threshold);
   if (!(weight > 0.0f)) return;
   scratch.shadow_rays.push_back(shadow_ray_at(points, lane));
-  scratch.pending.push_back({contribution * weight, path.index, points.light[lane]});
+  PendingLight& pending =
+      scratch.pending.emplace_back(PendingLight{contribution * weight, path.index, points.light[lane]});
+  if (!scratch.passes.any()) return;
+  pending.direct = path.depth == 0;
+  pending.lobes =
+      pending.direct ? share_of_light(points, lane) : scratch.passes.first_scattering(path.index).scattered;
 }
 
 void PathIntegrator::shade(PathBlock& block, std::span<FirstHit> first_hits, Scratch& scratch) const {
@@ -51,8 +57,13 @@ void PathIntegrator::shade(PathBlock& block, std::span<FirstHit> first_hits, Scr
     if (!first_hits.empty()) set_albedo(path, lane_color(points.albedo, lane), first_hits[path.index]);
     add_light(path, points, lane, scratch);
     if (!points.alive[lane]) continue;
+    const DirectionSample sampled = direction_sample_at(block, lane);
+    if (scratch.passes.any() && path.depth == 0 && !sampled.through_pane) {
+      const LobeShare lobes = share_of_direction(points, lane);
+      scratch.passes.first_scattering(path.index) = {lobes, lobes};
+    }
     Ray next;
-    if (path.advance(context_, block, lane, direction_sample_at(block, lane), scratch.hits[number], next))
+    if (path.advance(context_, block, lane, sampled, scratch.hits[number], next))
       scratch.push_next_ray(number, next);
   }
 }
@@ -62,7 +73,7 @@ void PathIntegrator::trace(std::span<const CameraSample> samples, std::span<Samp
   scratch.paths.resize(samples.size());
   scratch.rays.resize(samples.size());
   const LightGroups& groups = context_.world.light_groups;
-  scratch.parts.assign(groups.size() * samples.size(), Color::Zero());
+  scratch.passes.begin(options_.passes, groups.size(), samples.size());
   for (std::size_t i = 0; i < samples.size(); ++i) {
     scratch.paths[i] = PathState(context_.world, samples[i], i);
     scratch.rays[i] = samples[i].ray();
@@ -79,9 +90,11 @@ void PathIntegrator::trace(std::span<const CameraSample> samples, std::span<Samp
       [&](const PendingLight& light, const Color& transmittance) {
         const Color arrived = light.contribution * transmittance;
         results[light.index].radiance += arrived;
-        if (groups.empty()) return;
-        const std::size_t group = groups.of_light(context_.world.lights.triangles(), light.light);
-        scratch.parts[light.index * groups.size() + group] += arrived;
+        if (!groups.empty()) {
+          const std::size_t group = groups.of_light(context_.world.lights.triangles(), light.light);
+          scratch.passes.add_to_group(light.index, group, arrived);
+        }
+        if (scratch.passes.any()) scratch.passes.add(light.index, light.lobes, light.direct, arrived);
       });
 }
 

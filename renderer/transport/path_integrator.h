@@ -3,9 +3,12 @@
 // (Veach 1997), Russian roulette. It does not use the cache.
 
 #include <span>
+#include <vector>
 
+#include "renderer/film/render_passes.h"
 #include "renderer/settings/options.h"
 #include "renderer/settings/statistics.h"
+#include "renderer/transport/lobe_shares.h"
 #include "renderer/transport/path_state.h"
 #include "renderer/transport/waves.h"
 
@@ -16,13 +19,15 @@ struct PathIntegratorOptions {
   MisRule mis;
   int max_depth = kNoDepthLimit;  ///< scattering events
   int max_transmission_depth = kNoDepthLimit;
-  int min_depth = 2;  ///< before Russian roulette
+  int min_depth = 2;        ///< before Russian roulette
+  std::vector<Aov> passes;  ///< render passes
 };
 inline PathIntegratorOptions path_integrator_options(const RenderOptions& options) {
   return {{options.direct, options.mis},
           options.max_depth.value_or(kNoDepthLimit),
           options.max_transmission_depth.value_or(kNoDepthLimit),
-          options.min_depth};
+          options.min_depth,
+          passes_among(options.aovs)};
 }
 
 /// Traces batches of camera paths breadth first: all rays of a depth together, in packets. Thread-safe; the
@@ -33,10 +38,12 @@ class PathIntegrator {
 
   /// The world must outlive the integrator.
   PathIntegrator(const World& world, const PathIntegratorOptions& options)
-      : context_(world, options.mis, options.max_transmission_depth), options_(options) {}
+      : context_(world, options.mis, options.max_transmission_depth), options_(options) {
+    if (!options.passes.empty()) context_.shading.separate_wide(kOnlyDiffuse);
+  }
 
   /// Radiance of each sample. `first_hits` is empty, or as long as the samples. Adds to `rays`. Where the
-  /// world has groups of lights, their parts are in Scratch::parts.
+  /// world has light groups or there are passes, their parts are in Scratch::passes.
   void trace(std::span<const CameraSample> samples, std::span<SampleResult> results,
              std::span<FirstHit> first_hits, RayCounts& rays, Scratch& scratch) const;
 
@@ -57,12 +64,12 @@ struct PendingLight {
   Color contribution{0.0f, 0.0f, 0.0f};
   std::uint32_t index = 0;
   std::uint32_t light = 0;  ///< LightSample::light
+  LobeShare lobes;          ///< that reflect it at the first scattering event; only for passes
+  bool direct = false;      ///< it is sampled there
 };
 
 struct PathIntegrator::Scratch : Waves<PathState, PendingLight> {
-  /// The radiance that each group of lights adds to a sample: all groups of the first sample, then those of
-  /// the next. Empty without groups.
-  std::vector<Color> parts;
+  RenderPasses passes;
 };
 
 }  // namespace gatelight::renderer

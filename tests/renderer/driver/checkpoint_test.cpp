@@ -41,7 +41,7 @@ Film blank_film(bool with_first_hits) {
            .half = true,
            .guides = true,
            .alpha = true,
-           .light_groups = {"a", "rest"}}};
+           .parts = {"a", "rest"}}};
 }
 
 /// Adds another sample to each pixel, with some of everything.
@@ -210,12 +210,12 @@ TEST(Checkpoint, NonFiniteSumsAreRefused) {
     expect_refusal<CacheFileError>([&] { checkpoint.restore(film, statistics); }, {"film.radiance", "2"});
     Film with_groups = blank_film(true);
     sums = with_groups.sums();
-    sums.light_groups[5][2] = value;
+    sums.parts[5][2] = value;
     with_groups.set_sums(sums);
     write_checkpoint(folder / "a", identity(), {Phase::render, 1}, {}, with_groups, {});
     Checkpoint of_groups(folder / "a");
     expect_refusal<CacheFileError>([&] { of_groups.restore(with_groups, statistics); },
-                                   {"film.light_groups", "5"});
+                                   {"film.parts", "5"});
   }
 }
 

@@ -114,7 +114,7 @@ TEST(FilmSamples, BrightOnesAreScaledToTheClampAndCounted) {
 }
 
 TEST(FilmSamples, PartsAreScaledAndDroppedWithTheirSamples) {
-  Film film({0, 0, 2, 1}, 2, 1, {.light_groups = {"a", "rest"}});
+  Film film({0, 0, 2, 1}, 2, 1, {.parts = {"a", "rest"}});
   SampleCounts counts;
   const std::vector<PixelSample> samples = {{{0, 0}, 0}, {{1, 0}, 0}};
   RenderOptions options;

@@ -109,7 +109,8 @@ inline const Kind kKinds[] = {
      [](RenderOptions& o) {
        o.light_groups = {{"lamp", {"*"}}, {"sky", {"environment"}}};
        testing::denoise(o);
-       o.aovs = {Aov::raw};
+       o.denoise.parts = true;
+       o.aovs = {Aov::raw, Aov::diffuse_direct, Aov::glossy_indirect};
      }},
     {"ao", Integrator::ao, [](RenderOptions&) {}},
     {"nao", Integrator::nao, [](RenderOptions&) {}},
@@ -132,6 +133,7 @@ inline const Kind kKinds[] = {
        o.cache.candidates = 1;
        o.cache.source = TrainingSource::picture;
        o.cache.samples_from_step = 2;
+       o.aovs = all_passes();
        testing::denoise(o);
      }},
     {"nrc_hashgrid", Integrator::nrc,

@@ -1,0 +1,32 @@
+#include "renderer/settings/aovs.h"
+
+#include <cctype>
+
+namespace gatelight::renderer {
+
+std::vector<std::string> channels_of(const AovInfo& aov) {
+  const std::string_view c = aov.channels;
+  if (std::any_of(c.begin(), c.end(), [](unsigned char letter) { return std::islower(letter) != 0; }))
+    return {std::string(c)};
+  std::vector<std::string> channels;
+  for (const char letter : c) channels.emplace_back(1, letter);
+  return channels;
+}
+
+std::vector<Aov> passes_among(std::span<const Aov> aovs) {
+  std::vector<Aov> passes;
+  for (const Aov aov : aovs) {
+    if (info_of(aov).source == AovSource::pass) passes.push_back(aov);
+  }
+  return passes;
+}
+
+std::vector<Aov> all_passes() {
+  std::vector<Aov> passes;
+  for (const AovInfo& row : kAovs) {
+    if (row.source == AovSource::pass) passes.push_back(row.aov);
+  }
+  return passes;
+}
+
+}  // namespace gatelight::renderer
