@@ -10,15 +10,11 @@ namespace gatelight::renderer {
 namespace {
 
 /// The parts of a sample of the picture.
-std::span<Color> parts_of(RecordBatch& batch, std::size_t sample) {
+template <class Batch>
+auto parts_of(Batch& batch, std::size_t sample) {
   const std::size_t count = batch.parts.size() / batch.starts.samples.size();
   return std::span(batch.parts).subspan(sample * count, count);
 }
-std::span<const Color> parts_of(const RecordBatch& batch, std::size_t sample) {
-  const std::size_t count = batch.parts.size() / batch.starts.samples.size();
-  return std::span(batch.parts).subspan(sample * count, count);
-}
-
 
 /// Work of the slowest rank after which the shares of the ranks are adjusted.
 constexpr double kRebalanceSeconds = 0.5;
