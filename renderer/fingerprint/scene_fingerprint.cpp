@@ -7,6 +7,9 @@
 #include <fstream>
 #include <span>
 #include <stdexcept>
+#include <string>
+#include <type_traits>
+#include <variant>
 #include <vector>
 
 #include "base/errors.h"
@@ -71,49 +74,19 @@ void add_slot(DigestRecord& record, const scene::TextureSlot& slot) {
 }
 
 void add_material(DigestRecord& record, const scene::Material& material) {
-  // Names every member: a new one in the struct stops this from compiling.
-  const auto& [name, base_color, base_alpha, base_color_texture, metallic, roughness,
-               metallic_roughness_texture, normal_texture, normal_scale, emission, emission_texture,
-               alpha_mode, alpha_cutoff, double_sided, culled, unlit, ior, specular, specular_texture,
-               specular_color, specular_color_texture, glossiness_texture, transmission, transmission_texture,
-               thickness, attenuation_distance, attenuation_color, dispersion, anisotropy,
-               anisotropy_rotation, anisotropy_texture, iridescence, iridescence_texture, film_ior,
-               film_thickness_minimum, film_thickness_maximum, film_thickness_texture, clearcoat,
-               clearcoat_texture, clearcoat_roughness, clearcoat_roughness_texture, clearcoat_normal_texture,
-               clearcoat_normal_scale, diffuse_transmission, diffuse_transmission_texture,
-               diffuse_transmission_color, diffuse_transmission_color_texture, sheen_color,
-               sheen_color_texture, sheen_roughness, sheen_roughness_texture] = material;
-  for (const auto* color : {&base_color, &emission, &specular_color, &attenuation_color, &sheen_color,
-                            &diffuse_transmission_color})
-    add_numbers(record, *color);
-  for (const float value : {base_alpha,
-                            metallic,
-                            roughness,
-                            normal_scale,
-                            alpha_cutoff,
-                            ior,
-                            specular,
-                            transmission,
-                            thickness,
-                            attenuation_distance,
-                            clearcoat,
-                            clearcoat_roughness,
-                            clearcoat_normal_scale,
-                            sheen_roughness,
-                            diffuse_transmission,
-                            anisotropy,
-                            anisotropy_rotation,
-                            dispersion,
-                            iridescence,
-                            film_ior,
-                            film_thickness_minimum,
-                            film_thickness_maximum})
-    record.add(value);
-  scene::for_each_slot(material, [&](const scene::TextureSlot& slot, bool) { add_slot(record, slot); });
-  record.add(alpha_mode);
-  record.add(double_sided);
-  record.add(culled);
-  record.add(unlit);
+  const auto add = [&record](const auto& value) {
+    using Value = std::decay_t<decltype(value)>;
+    if constexpr (std::is_same_v<Value, Color>) {
+      add_numbers(record, value);
+    } else if constexpr (std::is_same_v<Value, scene::TextureSlot>) {
+      add_slot(record, value);
+    } else if constexpr (!std::is_same_v<Value, std::string>) {  // names decide nothing
+      record.add(value);
+    }
+  };
+  for (const scene::MaterialField& field : scene::material_fields())
+    std::visit([&](auto member) { add(material.*member); }, field.member);
+  record.add(material.culled);
 }
 
 void add_light(DigestRecord& record, const scene::PunctualLight& light) {
