@@ -1,5 +1,7 @@
 #include "apps/view/pixel_report.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
