@@ -9,6 +9,7 @@ constexpr FieldRange kAtLeastZero{.min = 0.0};
 constexpr FieldRange kDistance{.min = 0.0, .excludes_min = true, .infinity = true};
 constexpr FieldRange kIndex{.min = 1.0, .or_zero = true};
 constexpr FieldRange kFilmIndex{.min = 1.0, .max = 100.0};
+constexpr FieldRange kAnisotropyOfScattering{.min = -0.99, .max = 0.99};
 constexpr FieldRange kSrgb{.srgb = true};
 constexpr FieldRange kLinear{};
 
@@ -16,6 +17,7 @@ constexpr const char* kCore = "";
 constexpr const char* kSpecular = "KHR_materials_specular";
 constexpr const char* kTransmission = "KHR_materials_transmission";
 constexpr const char* kVolume = "KHR_materials_volume";
+constexpr const char* kScatter = "KHR_materials_volume_scatter";
 constexpr const char* kAnisotropy = "KHR_materials_anisotropy";
 constexpr const char* kIridescence = "KHR_materials_iridescence";
 constexpr const char* kClearcoat = "KHR_materials_clearcoat";
@@ -59,6 +61,10 @@ constexpr MaterialField kFields[] = {
     {FIELD(attenuation_distance), kVolume, "attenuationDistance", kDistance, "Metres, of attenuation_color"},
     {FIELD(attenuation_color), kVolume, "attenuationColor", kUnit,
      "Colour of white light after that distance"},
+    {FIELD(multiscatter_color), kScatter, "multiscatterColorFactor", kUnit,
+     "Reflectance of a half space of the inside, which scatters light; black: it only absorbs"},
+    {FIELD(scatter_anisotropy), kScatter, "scatterAnisotropy", kAnisotropyOfScattering,
+     "Mean cosine of a scattering event inside: positive is forward"},
     {FIELD(dispersion), "KHR_materials_dispersion", "dispersion", kAtLeastZero, "20 over the Abbe number"},
     {FIELD(anisotropy), kAnisotropy, "anisotropyStrength", kUnit, "Strength"},
     {FIELD(anisotropy_rotation), kAnisotropy, "anisotropyRotation", kAny, "Radians from the tangent"},

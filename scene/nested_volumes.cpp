@@ -6,6 +6,7 @@
 #include <iterator>
 #include <map>
 #include <numeric>
+#include <set>
 #include <tuple>
 #include <utility>
 
@@ -29,7 +30,9 @@ bool can_close(const Material& m) {
   return m.alpha_mode == AlphaMode::opaque && !m.culled;
 }
 
-std::vector<Body> find_bodies(const Scene& scene) {
+/// `wanted(instance, its material)` leaves others out.
+template <class Wanted>
+std::vector<Body> find_bodies(const Scene& scene, const Wanted& wanted) {
   std::vector<Body> bodies;
   std::map<std::pair<int, int>, std::size_t> numbers;  // by placement and material
   std::vector<Box> boxes(scene.meshes.size());
@@ -37,10 +40,12 @@ std::vector<Body> find_bodies(const Scene& scene) {
     const Instance& instance = scene.instances[i];
     const Mesh& mesh = scene.mesh_of(instance);
     const Material& material = scene.material_of(instance);
-    if (instance.placement < 0 || instance.hidden || mesh.triangles.empty() || !material.has_volume() ||
-        !can_close(material))
+    if (instance.hidden || mesh.triangles.empty() || !material.has_volume() || !can_close(material) ||
+        !wanted(instance, material))
       continue;
-    const auto [number, is_new] = numbers.try_emplace({instance.placement, mesh.material}, bodies.size());
+    // Each instance of a scene that is made in code is placed by itself.
+    const int placement = instance.placement < 0 ? -1 - static_cast<int>(i) : instance.placement;
+    const auto [number, is_new] = numbers.try_emplace({placement, mesh.material}, bodies.size());
     if (is_new) bodies.emplace_back();
     Body& body = bodies[number->second];
     body.instances.push_back(i);
@@ -235,7 +240,8 @@ std::vector<Body> closed_bodies(const Scene& scene, std::vector<Body> bodies) {
 }  // namespace
 
 NestedVolumes find_nested_volumes(const Scene& scene) {
-  std::vector<Body> bodies = find_bodies(scene);
+  std::vector<Body> bodies =
+      find_bodies(scene, [](const Instance& instance, const Material&) { return instance.placement >= 0; });
   keep_those_that_touch(bodies);
   bodies = closed_bodies(scene, std::move(bodies));
   keep_those_that_touch(bodies);
@@ -256,6 +262,21 @@ NestedVolumes find_nested_volumes(const Scene& scene) {
     nested.instances.push_back(body.instances.front());
   }
   return nested;
+}
+
+std::vector<int> open_scatterers(const Scene& scene) {
+  std::vector<std::uint8_t> closed(scene.instances.size(), 0);
+  std::set<int> open;
+  const auto scatters = [](const Instance&, const Material& material) { return material.scatters(); };
+  for (const Body& body : closed_bodies(scene, find_bodies(scene, scatters))) {
+    for (const std::uint32_t instance : body.instances) closed[instance] = 1;
+  }
+  for (std::size_t i = 0; i < scene.instances.size(); ++i) {
+    const Instance& instance = scene.instances[i];
+    if (!closed[i] && !scene.mesh_of(instance).triangles.empty() && scene.material_of(instance).scatters())
+      open.insert(scene.mesh_of(instance).material);
+  }
+  return {open.begin(), open.end()};
 }
 
 }  // namespace gatelight::scene

@@ -30,4 +30,7 @@ struct NestedVolumes {
 
 NestedVolumes find_nested_volumes(const Scene& scene);
 
+/// The materials that scatter in a body with a hole, which light might never leave, in order.
+std::vector<int> open_scatterers(const Scene& scene);
+
 }  // namespace gatelight::scene

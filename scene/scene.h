@@ -81,12 +81,15 @@ struct Material {
   float thickness = 0.0f;                     ///< KHR_materials_volume; 0 is thin-walled
   float attenuation_distance = kInfinity;     ///< KHR_materials_volume, metres
   Color attenuation_color{1.0f, 1.0f, 1.0f};  ///< KHR_materials_volume
-  float dispersion = 0.0f;                    ///< KHR_materials_dispersion: 20 over the Abbe number
-  float anisotropy = 0.0f;                    ///< KHR_materials_anisotropy
-  float anisotropy_rotation = 0.0f;           ///< radians, counter-clockwise from the tangent
-  TextureSlot anisotropy_texture;             ///< RG the direction, B multiplies the strength
-  float iridescence = 0.0f;                   ///< KHR_materials_iridescence
-  TextureSlot iridescence_texture;            ///< R
+  /// KHR_materials_volume_scatter: the diffuse reflectance of a half space of the inside.
+  Color multiscatter_color{0.0f, 0.0f, 0.0f};
+  float scatter_anisotropy = 0.0f;   ///< in (-1, 1): the mean cosine of a scattering event inside
+  float dispersion = 0.0f;           ///< KHR_materials_dispersion: 20 over the Abbe number
+  float anisotropy = 0.0f;           ///< KHR_materials_anisotropy
+  float anisotropy_rotation = 0.0f;  ///< radians, counter-clockwise from the tangent
+  TextureSlot anisotropy_texture;    ///< RG the direction, B multiplies the strength
+  float iridescence = 0.0f;          ///< KHR_materials_iridescence
+  TextureSlot iridescence_texture;   ///< R
   float film_ior = 1.3f;
   float film_thickness_minimum = 100.0f;  ///< nanometres; only used with a texture
   float film_thickness_maximum = 400.0f;
@@ -110,6 +113,11 @@ struct Material {
   bool transmits() const { return transmission > 0.0f || diffuse_transmission > 0.0f; }
   /// Whether light enters an interior rather than passing an infinitely thin sheet.
   bool has_volume() const { return transmits() && thickness > 0.0f; }
+  /// Whether its inside scatters light.
+  bool scatters() const {
+    return has_volume() && attenuation_distance < kInfinity && (multiscatter_color > 0.0f).any() &&
+           (attenuation_color < 1.0f).any();
+  }
   /// Whether it refracts colours by different angles. A thin sheet does not refract.
   bool disperses() const { return dispersion > 0.0f && transmission > 0.0f && thickness > 0.0f; }
 };

@@ -58,6 +58,7 @@ class Converter {
     m.alpha_cutoff = static_cast<float>(source.alphaCutoff);
     m.double_sided = source.doubleSided;
     read_extensions(source.extensions, m);
+    read_scattering(source.extensions, m);
     drop_unread_textures(m);
     return m;
   }
@@ -95,6 +96,57 @@ class Converter {
       if (!m.emission.allFinite())
         document_.fail(where_, "emissiveStrength too large, expected finite emission");
     }
+  }
+
+  /// Both drafts: KHR_materials_volume_scatter, whose colour had another name at first, and
+  /// KHR_materials_scatter, which replaces it.
+  void read_scattering(const tinygltf::ExtensionMap& extensions, Material& m) {
+    if (const Value* e = find_extension(extensions, "KHR_materials_volume_scatter")) {
+      if (!find_member(*e, "multiscatterColorFactor"))
+        m.multiscatter_color = color(*e, "multiscatterColor", Eigen::Vector3d::Zero());
+    }
+    const Value* const e = find_extension(extensions, "KHR_materials_scatter");
+    if (e) {
+      const float strength = unit(number_or(*e, "scatterStrengthFactor", 0.0), "scatterStrengthFactor");
+      m.multiscatter_color = color(*e, "multiscatterColorFactor", Eigen::Vector3d::Ones());
+      m.scatter_anisotropy = float_or(*e, "scatterAnisotropy", 0.0f);
+      for (const char* const texture : {"scatterStrengthTexture", "multiscatterColorTexture"}) {
+        if (find_member(*e, texture))
+          warnings_.add(fmt::format("{}.{}: it is not read, and the factor stands for it", where_, texture));
+      }
+      if (m.has_volume()) {
+        m.multiscatter_color *= strength;
+      } else {
+        make_thin_scatterer(strength, m);
+      }
+    }
+    constexpr float kMax = 0.99f;
+    const float anisotropy = std::clamp(m.scatter_anisotropy, -kMax, kMax);
+    if (anisotropy != m.scatter_anisotropy)
+      warnings_.add(fmt::format("{}.scatterAnisotropy: {:g} is taken as {:g}", where_,
+                                static_cast<double>(m.scatter_anisotropy), static_cast<double>(anisotropy)));
+    m.scatter_anisotropy = anisotropy;
+  }
+
+  /// A thin sheet scatters the share `strength` of what it transmits, forward as diffuse transmission and
+  /// backward as diffuse reflection. Both have the colour of scattering; a clear share keeps the colour of
+  /// the sheet only where nothing scatters, because the material has one colour for both.
+  static void make_thin_scatterer(float strength, Material& m) {
+    const float scattered = m.transmission * strength, opaque = 1.0f - m.transmission;
+    m.transmission -= scattered;
+    const float diffuse = opaque + scattered;
+    if (!(scattered > 0.0f)) return;
+    const float forward = scattered * 0.5f * (1.0f + m.scatter_anisotropy), backward = scattered - forward;
+    m.diffuse_transmission = forward / diffuse;
+    m.diffuse_transmission_color = m.multiscatter_color;
+    const float reflected = opaque + backward;
+    if (reflected > 0.0f)
+      m.base_color = (opaque * m.base_color + backward * m.multiscatter_color) / reflected;
+    m.multiscatter_color.setZero();
+  }
+
+  Color color(const Value& object, const char* name, const Eigen::Vector3d& fallback) {
+    return unit(vector_or<Eigen::Vector3d>(object, name, fallback), name);
   }
 
   float read(const Value& extension, const MaterialField& field, float fallback) {

@@ -279,6 +279,13 @@ constexpr Rule kRules[] = {
     number("specular_glossiness", "glossinessFactor"),
     object("specular_glossiness", "specularGlossinessTexture", "textureInfo"),
     object("KHR_materials_volume", "thicknessTexture", "textureInfo"),
+    numbers("KHR_materials_volume_scatter", "multiscatterColor", 3),
+    object("material.extensions", "KHR_materials_scatter", "scatter"),
+    number("scatter", "scatterStrengthFactor"),
+    object("scatter", "scatterStrengthTexture", "textureInfo"),
+    numbers("scatter", "multiscatterColorFactor", 3),
+    object("scatter", "multiscatterColorTexture", "textureInfo"),
+    number("scatter", "scatterAnisotropy"),
 };
 
 /// Factors up to 1 and colours are clamped where they are read; other numbers below their range are refused.
