@@ -129,6 +129,11 @@ std::vector<std::string> describe_animations(const scene::Scene& scene) {
   return lines;
 }
 
+/// Metres between events inside a material, on average.
+Color mean_free_path(const scene::Material& m) {
+  return m.attenuation_distance / -m.attenuation_color.max(1e-30f).log();
+}
+
 /// The bodies of glass and liquid that overlap, the strongest first.
 std::vector<const scene::Instance*> nested_media(const scene::Scene& scene,
                                                  const SceneRequirements& requirements) {
@@ -151,6 +156,19 @@ std::vector<std::string> describe_media(const scene::Scene& scene, const SceneRe
                                 scene.material_of(*instance).ior, instance->dielectric_priority));
   }
   lines.emplace_back("(bodies that overlap, the one that fills the space first)");
+  return lines;
+}
+
+/// The materials whose inside scatters light.
+std::vector<std::string> describe_scattering(const scene::Scene& scene) {
+  std::vector<std::string> lines;
+  for (const scene::Material& m : scene.materials) {
+    if (!m.scatters()) continue;
+    const Color path = mean_free_path(m) * 1e3f;
+    lines.push_back(fmt::format(
+        "'{}', mean free path {:.3g}, {:.3g}, {:.3g} mm, colour {:.3g}, {:.3g}, {:.3g}", m.name, path[0],
+        path[1], path[2], m.multiscatter_color[0], m.multiscatter_color[1], m.multiscatter_color[2]));
+  }
   return lines;
 }
 
@@ -251,6 +269,8 @@ std::string scene_report_text(const scene::Scene& scene, const SceneRequirements
   rows.add_list("variants", scene.variants);
   if (!scene.animations.empty()) rows.add_list("animations", describe_animations(scene));
   if (requirements.nested_volumes) rows.add_list("nested media", describe_media(scene, requirements));
+  if (const std::vector<std::string> media = describe_scattering(scene); !media.empty())
+    rows.add_list("scattering", media);
   rows.add("bounds", describe_bounds(file_bounds(scene)));
   rows.add("requires", describe_requirements(requirements));
   rows.add("memory", fmt::format("geometry {}, images {}; rendering with default options needs about {}",

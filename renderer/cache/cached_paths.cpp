@@ -5,7 +5,9 @@
 #include <optional>
 
 #include "renderer/cache/scene_layout.h"
+#include "renderer/shading/lobe_widths.h"
 #include "renderer/transport/guide_surface.h"
+#include "renderer/transport/medium_walk.h"
 
 namespace gatelight::renderer {
 namespace {
@@ -41,17 +43,6 @@ std::uint32_t CachedPaths::side_at(const Hit& hit, bool front) const {
   return side_of(front, context_.world.scene.instances[hit.instance].swaps_handedness);
 }
 
-CachedPaths::BlockKind CachedPaths::kind_of_end(const SurfaceMaterial& m) const {
-  const auto is_wide = [&](float roughness) {
-    return roughness >= std::max(options_.min_roughness, kDeltaRoughness) && roughness <= 1.0f;
-  };
-  const bool coated = m.clearcoat > 0.0f;
-  if (is_wide(m.roughness) && (!coated || is_wide(m.clearcoat_roughness))) return kCacheOnly;
-  const bool has_wide = is_wide(m.roughness) || (coated && is_wide(m.clearcoat_roughness)) ||
-                        (m.metallic < 1.0f && m.transmission < 1.0f) || (m.sheen_color > 0.0f).any();
-  return has_wide ? kCacheAndNarrow : kContinue;
-}
-
 bool CachedPaths::may_record(const Path& path, const PathPlan& plan) const {
   return plan.records && (plan.most_records == kNone || path.records < plan.most_records);
 }
@@ -82,21 +73,60 @@ void CachedPaths::add_emission(const Path& path, const Emission& found, bool bac
   if (path.vertex == kNone) {
     const Color light = path.weights.emission * emission;
     batch.emission[path.index] += light;
-    if (batch.passes.any()) batch.passes.add_found(path.index, 0, background, light);
+    if (batch.passes.any()) batch.passes.add_found(path.index, path.depth, background, light);
     return;
   }
   PathVertex& from = batch.vertices[static_cast<std::size_t>(path.vertex)];
   from.direct += path.weights.emission * emission;
   if (batch.passes.any() && from.previous == kNone)
-    batch.passes.add_found(path.index, 1, background, from.link * path.weights.emission * emission);
-  if (from.record != kNone && options_.cached.emission())
+    batch.passes.add_found(path.index, path.through_medium ? 2 : path.depth, background,
+                           from.link * path.weights.emission * emission);
+  if (from.record != kNone && (options_.cached.emission() || path.through_medium))
     batch.target(from.record) += path.weights.cached * emission;
 }
 
-PathBlock* CachedPaths::scatter(std::uint32_t number, Path& path, const Ray& ray, const Hit& hit,
-                                const PathPlan& plan, PathBatch& batch, std::span<FirstHit> first_hits,
+[[gnu::noinline, gnu::cold]] bool CachedPaths::walk(Path& path, Ray& ray, Hit& hit, const PathPlan& plan,
+                                                    PathBatch& batch, FirstHit* first, RayCounts& counts,
+                                                    Scratch& scratch) const {
+  const bool first_event = path.depth == 0;
+  const LobeShare volume{.rest = LobeShare::Rest::volume};
+  const Color throughput = path.throughput;
+  const MediumWalk walk = walk_medium(
+      context_, path, ray, hit, plan.max_depth, counts,
+      [&](const Color& arriving, const Ray& shadow, std::uint32_t, int event) {
+        const Color light = arriving * path.scale();
+        const float weight =
+            plan.contribution_threshold > 0.0f
+                ? 1.0f
+                : path.shadow_weight((throughput * light).maxCoeff(), path.contribution_threshold);
+        if (!(weight > 0.0f)) return;
+        scratch.shadow_rays.push_back(shadow);
+        Pending& pending = scratch.pending.emplace_back(Pending{
+            path.vertex, path.weights.scattered * light * weight, path.weights.cached * light * weight});
+        pending.of_medium = true;
+        pending.path = path.index;
+        pending.lobes = volume;
+        pending.indirect = !first_event || event > 1;
+      });
+  path.weights *= walk.factor;
+  if (walk.events == 0) return walk.alive;
+  // Emission that the path finds now is light that the medium has scattered.
+  path.weights.emission = path.weights.scattered;
+  path.through_medium = true;
+  path.wide_events += 1;
+  path.spread += walk.spread;
+  if (first) record_medium(path, path.inside->color, *first);
+  if (batch.passes.any() && first_event)
+    batch.passes.first_scattering(path.index) = {volume, volume, true, walk.events > 1};
+  return walk.alive;
+}
+
+PathBlock* CachedPaths::scatter(std::uint32_t number, Path& path, Ray& ray, Hit& hit, const PathPlan& plan,
+                                PathBatch& batch, std::span<FirstHit> first_hits, RayCounts& counts,
                                 Scratch& scratch) const {
   FirstHit* const first = first_hits.empty() ? nullptr : &first_hits[path.index];
+  if (path.inside && path.inside->scatters() && !walk(path, ray, hit, plan, batch, first, counts, scratch))
+    return nullptr;
   if (!hit || path.looks_through(context_, hit)) {
     if (first) record_background(path, *first);
     const Emission sky = path.sky(context_, ray.direction);
@@ -134,10 +164,15 @@ CachedPaths::BlockKind CachedPaths::kind_of(const Path& path, const SurfaceInter
                                             const PathPlan& plan) const {
   if (path.emission_only || !ends_here(path, plan)) return kContinue;
   if (!stored_(neural::surface_index(m.hit.instance, side_at(m.hit, m.surface.front)))) return kContinue;
-  if (kernels) return kind_of_end(m.surface.material);
-  const Bsdf bsdf = m.bsdf();
-  if (!bsdf.has_wide(options_.min_roughness)) return kContinue;
-  return bsdf.has_narrow(options_.min_roughness) ? kCacheAndNarrow : kCacheOnly;
+  switch (lobe_widths(m.surface, m.wo, kernels, options_.min_roughness)) {
+    case LobeWidths::wide:
+      return kCacheOnly;
+    case LobeWidths::both:
+      return kCacheAndNarrow;
+    case LobeWidths::narrow:
+      break;
+  }
+  return kContinue;
 }
 
 void CachedPaths::shade(PathBlock& block, const PathPlan& plan, PathBatch& batch,
@@ -184,10 +219,10 @@ void CachedPaths::shade(PathBlock& block, const PathPlan& plan, PathBatch& batch
     Path& path = scratch.paths[scratch.path_of[block.path[lane]]];
     if (!separate_delta_ || !points.light_is_delta[lane])
       add_light(path, points, lane, false, false, vertices[lane],
-                {Color::Zero(), plan.passes && light_is_behind(points, lane)}, plan, scratch);
+                {Color::Zero(), rest_of(plan.passes && light_is_behind(points, lane))}, plan, scratch);
     if (!points.alive[lane]) continue;
     const DirectionSample sampled = direction_sample_at(block, lane);
-    const LobeShare lobes{Color::Zero(), sampled.transmitted};
+    const LobeShare lobes{Color::Zero(), rest_of(sampled.transmitted)};
     follow(path, block, lane, sampled, {sampled.weight, sampled.weight}, vertices[lane], {lobes, lobes},
            batch, scratch);
   }
@@ -315,6 +350,7 @@ void CachedPaths::add_light(const Path& path, const ShadingBlock& p, int lane, b
   const Color wide = lane_color(p.wide_direct, lane) * passed * weight;
   const Color none = Color::Zero();
   scratch.shadow_rays.push_back(shadow_ray_at(p, lane));
+  scratch.shadow_rays.back().inside = path.shadow_inside(context_);
   scratch.pending.push_back({vertex, direct * weight, record && holds ? wide : none,
                              guides && delta && !holds ? wide : none, lobes});
 }
@@ -331,7 +367,7 @@ void CachedPaths::follow_direct(Path& path, const PathBlock& block, int lane, bo
   path.emission_only = !(scattered > 0.0f).any();
   RenderPasses::FirstScattering lobes;
   if (batch.passes.any())
-    lobes = {share_of_direction(scratch.diffuse.points, lane), {Color::Zero(), sampled.transmitted}};
+    lobes = {share_of_direction(scratch.diffuse.points, lane), {Color::Zero(), rest_of(sampled.transmitted)}};
   follow(path, block, lane, sampled, {sampled.weight, scattered}, vertex, lobes, batch, scratch);
 }
 
@@ -343,8 +379,12 @@ void CachedPaths::follow(Path& path, const PathBlock& block, int lane, const Dir
     // Light from behind the pane belongs to the vertex before the pane, whose light samples pass it too.
     path.weights *= weights.emission;
   } else {
-    if (batch.passes.any() && path.vertex == kNone) batch.passes.first_scattering(path.index) = lobes;
+    if (batch.passes.any() && path.vertex == kNone) {
+      RenderPasses::FirstScattering& first = batch.passes.first_scattering(path.index);
+      if (!first.in_medium) first = lobes;
+    }
     path.vertex = vertex;
+    path.through_medium = false;
     path.weights = weights;
   }
   const std::uint32_t number = block.path[lane];
@@ -369,15 +409,27 @@ void CachedPaths::trace(std::span<const PathStart> starts, std::span<const Hit> 
   }
   trace_waves(
       context_.world, hits, scratch, counts,
-      [&](std::uint32_t number, Path& path, Ray& ray, const Hit& hit) {
-        return scatter(number, path, ray, hit, plan, batch, first_hits, scratch);
+      [&](std::uint32_t number, Path& path, Ray& ray, Hit& hit) {
+        return scatter(number, path, ray, hit, plan, batch, first_hits, counts, scratch);
       },
       [&](PathBlock& block) { shade(block, plan, batch, first_hits, scratch); },
       [&](const Pending& light, const Color& transmittance) {
+        if (light.vertex == kNone) {  // between the camera and the first surface
+          const Color arrived = light.direct * transmittance;
+          batch.emission[light.path] += arrived;
+          if (batch.passes.any()) batch.passes.add(light.path, light.lobes, !light.indirect, arrived);
+          return;
+        }
         PathVertex& v = batch.vertices[static_cast<std::size_t>(light.vertex)];
         v.direct += light.direct * transmittance;
-        if (batch.passes.any() && v.previous == kNone)
-          batch.passes.add(v.path, light.lobes, true, v.link * light.direct * transmittance);
+        if (batch.passes.any() && v.previous == kNone) {
+          const Color arrived = v.link * light.direct * transmittance;
+          if (light.of_medium || batch.passes.first_scattering(v.path).in_medium) {
+            batch.passes.add_indirect(v.path, arrived);
+          } else {
+            batch.passes.add(v.path, light.lobes, true, arrived);
+          }
+        }
         if (v.record != kNone) batch.target(v.record) += light.cached * transmittance;
         if (!batch.guides.empty() && batch.guides[v.path].vertex == light.vertex)
           batch.guides[v.path].separate += light.separate * transmittance;

@@ -101,11 +101,13 @@ class CachedPaths {
   /// lobes only, and paths that continue.
   enum BlockKind : std::uint8_t { kCacheOnly, kCacheAndNarrow, kContinue };
 
-  PathBlock* scatter(std::uint32_t number, Path& path, const Ray& ray, const Hit& hit, const PathPlan& plan,
-                     PathBatch& batch, std::span<FirstHit> first_hits, Scratch& scratch) const;
+  PathBlock* scatter(std::uint32_t number, Path& path, Ray& ray, Hit& hit, const PathPlan& plan,
+                     PathBatch& batch, std::span<FirstHit> first_hits, RayCounts& counts,
+                     Scratch& scratch) const;
+  /// Walks through the medium around a path. False: the path ends there.
+  bool walk(Path& path, Ray& ray, Hit& hit, const PathPlan& plan, PathBatch& batch, FirstHit* first,
+            RayCounts& counts, Scratch& scratch) const;
   BlockKind kind_of(const Path& path, const SurfaceInteraction& m, bool kernels, const PathPlan& plan) const;
-  /// The kind of block for a vertex that the kernels shade, where the path can end in the cache.
-  BlockKind kind_of_end(const SurfaceMaterial& material) const;
   void shade(PathBlock& block, const PathPlan& plan, PathBatch& batch, std::span<FirstHit> first_hits,
              Scratch& scratch) const;
   std::uint32_t side_at(const Hit& hit, bool front) const;
@@ -170,6 +172,7 @@ struct CachedPaths::Path : PathState {
   float spread = 0.0f;          ///< metres: root of the area over which the path has spread
   float first_spread = 0.0f;    ///< square metres: spread of the camera ray at the first surface
   std::int32_t vertex = kNone;  ///< the vertex that the ray left; kNone: the camera
+  bool through_medium = false;  ///< a medium has scattered the path since it left `vertex`
   std::int32_t wide_events = 0;
   std::int32_t records = 0;
   bool to_its_end = false;
@@ -186,6 +189,9 @@ struct CachedPaths::Pending {
   Color cached = Color::Zero();
   Color separate = Color::Zero();  ///< of delta lights, by the wide lobes, where it is not cached
   LobeShare lobes;                 ///< that reflect it; only for passes
+  bool of_medium = false;          ///< it was scattered by the medium in front of the vertex's next surface
+  bool indirect = false;           ///< for passes
+  std::uint32_t path = 0;
 };
 
 struct CachedPaths::Scratch : Waves<CachedPaths::Path, CachedPaths::Pending> {

@@ -57,6 +57,12 @@ void PathBatch::write_guides(std::span<const float> answers, std::span<FirstHit>
   }
 }
 
+void PathBatch::add_answer(std::size_t vertex, const Color& light) {
+  const std::uint32_t path = vertices[vertex].path;
+  if (passes.first_scattering(path).in_medium) return passes.add_indirect(path, light);
+  passes.add(path, answer_lobes[vertex], false, light);
+}
+
 void PathBatch::resolve(std::span<const float> answers, std::span<Color> radiance) {
   if (!radiance.empty()) std::copy(emission.begin(), emission.end(), radiance.begin());
   for (std::size_t i = vertices.size(); i-- > 0;) {
@@ -66,7 +72,7 @@ void PathBatch::resolve(std::span<const float> answers, std::span<Color> radianc
     if (v.query != kNone) {
       const Color answer = v.reflectance * color_at(answers, v.query);
       reflected += answer;
-      if (passes.any() && v.previous == kNone) passes.add(v.path, answer_lobes[i], false, v.link * answer);
+      if (passes.any() && v.previous == kNone) add_answer(i, v.link * answer);
     }
     if (v.previous == kNone) {
       if (!radiance.empty()) radiance[v.path] += v.link * reflected;
@@ -104,7 +110,7 @@ void PathBatch::end_samples(std::span<const float> answers, std::span<Color> rad
     if (!passes.any()) continue;
     const Color added = radiance[v.path] - before;
     if (v.previous == kNone) {
-      passes.add(v.path, answer_lobes[static_cast<std::size_t>(end)], false, added);
+      add_answer(static_cast<std::size_t>(end), added);
     } else {
       passes.add_indirect(v.path, added);
     }

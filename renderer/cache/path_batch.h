@@ -91,6 +91,10 @@ struct PathBatch {
   /// the mean target. Where a mirror or glass at that point sent the paths to several points, each gets one.
   /// Call it after resolve(); indices in `vertices` and `first_records` are not updated.
   void average_first_records(std::size_t times);
+
+ private:
+  /// Adds light of the answer at a path's first vertex to the passes.
+  void add_answer(std::size_t vertex, const Color& light);
 };
 
 }  // namespace gatelight::renderer

@@ -39,7 +39,7 @@ class RadianceRecords : public RecordSource {
   const TrainingPoints& points_;
   const RenderOptions& options_;
   PointInputs inputs_;
-  bool guides_ = false;  ///< samples of the picture write the cache's own radiance (PathPlan::guides)
+  bool guides_ = false;     ///< samples of the picture write the cache's own radiance (PathPlan::guides)
   std::size_t passes_ = 0;  ///< number of render passes
   struct Worker {
     CachedPaths::Scratch scratch;

@@ -271,7 +271,7 @@ void PreparedPicture::set_camera(const CameraOptions& chosen) {
   choose_sky();
   statistics.warnings.clear();
   for (std::string warning :
-       {denoiser_warning(chosen_denoiser), sky_warning(scene, options, asks_for_sky),
+       {denoiser_warning(chosen_denoiser), sky_warning(scene, options, asks_for_sky), world->media.warning(),
         made_view(scene, options.camera, view), std::move(focus), world->environment.warning(),
         view_warning(*world, camera, options.width, options.height)}) {
     if (!warning.empty()) statistics.warnings.push_back(std::move(warning));

@@ -79,7 +79,8 @@ struct SampleResult {
 /// Dimensions of the sampler. The film uses the first one, then every vertex of the path uses four.
 namespace dimension {
 inline constexpr std::uint32_t kFilm = 0;
-inline constexpr std::uint32_t kLens = 0x80000000u;  ///< beyond those of all vertices
+inline constexpr std::uint32_t kLens = 0x80000000u;    ///< beyond those of all vertices
+inline constexpr std::uint32_t kMedium = 0x40000000u;  ///< beyond those of all vertices
 inline constexpr std::uint32_t kWavelength = kLens + 1;
 inline constexpr std::uint32_t kTime = kLens + 2;
 inline constexpr std::uint32_t kFirstVertex = 1;

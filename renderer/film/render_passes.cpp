@@ -16,17 +16,17 @@ void RenderPasses::add(std::size_t sample, Aov pass, const Color& light) {
 }
 
 void RenderPasses::add(std::size_t sample, const LobeShare& lobes, bool direct, const Color& light) {
+  constexpr Aov kDirect[] = {Aov::glossy_direct, Aov::transmission_direct, Aov::volume_direct};
+  constexpr Aov kIndirect[] = {Aov::glossy_indirect, Aov::transmission_indirect, Aov::volume_indirect};
   const Color diffuse = lobes.diffuse * light;
   add(sample, direct ? Aov::diffuse_direct : Aov::diffuse_indirect, diffuse);
-  const Aov glossy = direct ? Aov::glossy_direct : Aov::glossy_indirect;
-  const Aov transmitted = direct ? Aov::transmission_direct : Aov::transmission_indirect;
-  add(sample, lobes.transmitted ? transmitted : glossy, light - diffuse);
+  add(sample, (direct ? kDirect : kIndirect)[static_cast<std::size_t>(lobes.rest)], light - diffuse);
 }
 
 void RenderPasses::add_found(std::size_t sample, int events, bool background, const Color& light) {
   if (events == 0) return add(sample, background ? Aov::background : Aov::emission, light);
   const FirstScattering& first = first_scattering_[sample];
-  if (events == 1) return add(sample, first.emitted, true, light);
+  if (events == 1 && !first.indirect) return add(sample, first.emitted, true, light);
   add(sample, first.scattered, false, light);
 }
 

@@ -14,10 +14,12 @@
 
 namespace gatelight::renderer {
 
-/// How the light of a lobe is divided: this share of each channel is diffuse, the rest glossy or transmitted.
+/// How the light of lobes is divided: this share of each channel is diffuse, and the rest of one kind.
 struct LobeShare {
+  enum class Rest : std::uint8_t { glossy, transmission, volume };
+
   Color diffuse{0.0f, 0.0f, 0.0f};
-  bool transmitted = false;
+  Rest rest = Rest::glossy;
 };
 
 /// `part` over `whole`, per channel; 0 where there is no light.
@@ -50,6 +52,8 @@ class RenderPasses {
   struct FirstScattering {
     LobeShare emitted;
     LobeShare scattered;
+    bool in_medium = false;  ///< it was in a medium, before the first surface
+    bool indirect = false;   ///< several events counted as one: no light after them is direct
   };
   FirstScattering& first_scattering(std::size_t sample) { return first_scattering_[sample]; }
   /// Light that a path found after `events` scattering events, as emission or as background.

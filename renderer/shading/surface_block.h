@@ -34,6 +34,13 @@ struct ScalarLane {
   float radiance_scale = 1.0f;  ///< output: BsdfSample::radiance_scale, which the weights leave out
 };
 
+/// Fills its lobes.
+inline void put_lobes(ScalarLane& lane, const Surface& surface, const Vec3& wo) {
+  lane.bsdf.emplace(surface.material, surface.geometric_normal, surface.shading_normal, surface.coat_normal,
+                    wo, surface.front);
+  lane.thin_walled = surface.material.thin_walled;
+}
+
 /// The points go either all to the kernels or all to the scalar code, which has the same outputs.
 struct SurfaceBlock {
   ShadingBlock points;

@@ -96,7 +96,7 @@ Passage Coverage::pass(const Hit& hit, const Vec3& direction, const MediumStack&
     }
     s.ior /= media_.beyond(volume, around).ior;
     remove_refraction(s);
-    if (volume == scene::kNoVolume) passage.absorption = front ? absorption_of(m) : Color(-absorption_of(m));
+    if (volume == scene::kNoVolume) passage.absorption = front ? extinction_of(m) : Color(-extinction_of(m));
   }
   const Vec3 facing = front ? n : Vec3(-n);
   passage.transmittance = Bsdf(s, facing, facing, facing, -direction, front).unrefracted_transmittance();

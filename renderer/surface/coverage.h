@@ -33,6 +33,10 @@ class Coverage {
            bool unrefracted_glass = false);
 
   const Media& media() const { return media_; }
+  /// The number of an instance's material.
+  int material_of(std::uint32_t instance) const {
+    return scene_.mesh_of(scene_.instances[instance]).material;
+  }
 
   /// Whether rays may pass through this instance because it has an alpha test.
   bool tests_alpha(std::uint32_t instance) const { return flags_[instance] & kAlpha; }

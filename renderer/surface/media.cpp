@@ -1,5 +1,7 @@
 #include "renderer/surface/media.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 namespace gatelight::renderer {
@@ -21,19 +23,41 @@ void MediumStack::leave(std::uint32_t volume) {
   --count_;
 }
 
-Color absorption_of(const scene::Material& m) {
+Color extinction_of(const scene::Material& m) {
   if (!m.has_volume() || !(m.attenuation_distance < kInfinity)) return Color::Zero();
   // Finite, so that no distance makes it NaN.
   return (-m.attenuation_color.max(1e-30f).log() / m.attenuation_distance).min(1e30f);
 }
 
-Media::Media(const scene::Scene& scene, bool needed) {
-  if (!needed) return;
+Media::Media(const scene::Scene& scene, bool nested_volumes, bool unrefracted_glass) {
+  for (const scene::Material& m : scene.materials) {
+    insides_.push_back({.extinction = extinction_of(m),
+                        .albedo = m.scatters()
+                                      ? single_scattering_albedo(m.multiscatter_color, m.scatter_anisotropy)
+                                      : Color(Color::Zero()),
+                        .anisotropy = m.scatter_anisotropy,
+                        .color = m.multiscatter_color,
+                        .sampled = unrefracted_glass && m.transmission > 0.0f});
+  }
+  // Light might never leave a body with a hole: it only absorbs.
+  if (std::any_of(scene.materials.begin(), scene.materials.end(),
+                  [](const auto& m) { return m.scatters(); })) {
+    std::string names;
+    for (const int material : scene::open_scatterers(scene)) {
+      insides_[static_cast<std::size_t>(material)].albedo.setZero();
+      names += (names.empty() ? "'" : ", '") + scene.materials[static_cast<std::size_t>(material)].name + "'";
+    }
+    if (!names.empty())
+      warning_ = fmt::format("{}: bodies of {} have holes: they absorb light and do not scatter it",
+                             scene.path, names);
+  }
+  if (!nested_volumes) return;
   scene::NestedVolumes nested = scene::find_nested_volumes(scene);
   of_instance_ = std::move(nested.of_instance);
   for (const std::uint32_t instance : nested.instances) {
     const scene::Material& m = scene.material_of(scene.instances[instance]);
-    media_.push_back({m.ior > 0.0f ? m.ior : 1.0f, m.dispersion, absorption_of(m)});
+    const int material = scene.mesh_of(scene.instances[instance]).material;
+    media_.push_back({m.ior > 0.0f ? m.ior : 1.0f, m.dispersion, inside(material)});
   }
 }
 

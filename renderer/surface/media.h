@@ -4,9 +4,11 @@
 
 #include <array>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "renderer/bsdf/bsdf.h"
+#include "renderer/medium/scattering_medium.h"
 #include "scene/nested_volumes.h"
 
 namespace gatelight::renderer {
@@ -32,22 +34,26 @@ class MediumStack {
   std::uint8_t count_ = 0;
 };
 
-/// Absorption per metre inside a material. Light has the colour c = exp(-absorption d) after the distance d.
-/// A black channel absorbs within a thousandth of the distance.
-Color absorption_of(const scene::Material& m);
+/// Extinction per metre inside a material: absorption, and scattering where there is any. Of light of one
+/// direction c = exp(-extinction d) is left after the distance d. A black channel loses all within a
+/// thousandth of the distance.
+Color extinction_of(const scene::Material& m);
 
 struct Medium {
   float ior = 1.0f;
   float dispersion = 0.0f;
-  Color absorption{0.0f, 0.0f, 0.0f};  ///< per metre
+  const ScatteringMedium* inside = nullptr;  ///< null: clear
 };
 
 class Media {
  public:
   Media() = default;
-  /// `needed`: SceneRequirements::nested_volumes. Otherwise there are none, and nothing is searched.
-  Media(const scene::Scene& scene, bool needed);
+  /// `nested`: SceneRequirements::nested_volumes. Otherwise none is searched. `unrefracted_glass`:
+  /// GlassShadows::straight.
+  Media(const scene::Scene& scene, bool nested, bool unrefracted_glass);
 
+  /// About bodies that should scatter and have holes; empty where there are none.
+  const std::string& warning() const { return warning_; }
   bool empty() const { return media_.empty(); }
   /// The volume that the surfaces of an instance bound, or kNoVolume.
   std::uint32_t volume_of(std::uint32_t instance) const {
@@ -64,21 +70,27 @@ class Media {
   }
   /// The medium of a volume; air outside of all volumes.
   const Medium& of(std::uint32_t volume) const { return volume == scene::kNoVolume ? air_ : media_[volume]; }
+  /// What a material encloses; null where that is clear.
+  const ScatteringMedium* inside(int material) const {
+    const ScatteringMedium& medium = insides_[static_cast<std::size_t>(material)];
+    return (medium.extinction > 0.0f).any() ? &medium : nullptr;
+  }
 
  private:
+  std::vector<ScatteringMedium> insides_;  ///< by material
+  std::string warning_;
   std::vector<std::uint32_t> of_instance_;
   std::vector<Medium> media_;  ///< by volume
   Medium air_;
 };
 
-/// Crosses a surface with an inside and returns the absorption per metre behind it: of the strongest volume
-/// there, or of the surface's own medium where it is none of the volumes and the ray enters it. `own`: that
-/// absorption, called where it counts.
-template <class Own>
-Color cross(const Media& media, MediumStack& interior, std::uint32_t volume, bool enters, const Own& own) {
-  if (volume == scene::kNoVolume && enters) return own();
+/// Crosses a surface with an inside and returns what is behind it: the inside of the strongest volume there,
+/// or the surface's own, which `material` encloses, where it is none of the volumes and the ray enters it.
+inline const ScatteringMedium* cross(const Media& media, MediumStack& interior, std::uint32_t volume,
+                                     bool enters, int material) {
+  if (volume == scene::kNoVolume && enters) return media.inside(material);
   if (volume != scene::kNoVolume) interior.cross(volume, enters);
-  return media.of(interior.strongest()).absorption;
+  return media.of(interior.strongest()).inside;
 }
 
 /// The share of a surface that is glass.

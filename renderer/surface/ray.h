@@ -12,12 +12,16 @@ inline constexpr std::uint32_t kNoInstance = ~0u;
 /// The seed of a ray that meets all blended surfaces.
 inline constexpr std::uint32_t kMeetsAll = ~0u;
 
+struct ScatteringMedium;
+
 struct Ray {
   Vec3 origin = Vec3::Zero();
   float t_max = kInfinity;
   Vec3 direction{0.0f, 0.0f, -1.0f};  ///< unit
   std::uint32_t seed = 0;             ///< for the stochastic alpha test; equal seeds meet equal surfaces
   float time = 0.5f;                  ///< of the shutter (scene/shutter.h)
+  /// What a shadow ray starts in, where that counts and does not end at a surface; else null.
+  const ScatteringMedium* inside = nullptr;
 };
 
 struct Hit {

@@ -16,6 +16,7 @@ void ShadowTransmittance::start(const Ray& ray) {
     absorbed_ = false;
   }
   panes_ = boundary_count_ = 0;
+  start_ = ray.inside;
 }
 
 bool ShadowTransmittance::pass(const Coverage& coverage, const Hit& hit) {
@@ -41,9 +42,12 @@ bool ShadowTransmittance::pass(const Coverage& coverage, const Hit& hit) {
 
 Color ShadowTransmittance::passed(const Coverage& coverage, float distance) {
   const Color nested = boundary_count_ > 0 ? through_boundaries(coverage, distance) : Color(Color::Ones());
-  if (!absorbed_) return transmittance_ * nested;
-  Color all = depth_;
-  if (distance < kInfinity) all += inside_.max(0.0f) * distance;
+  // Boundaries of volumes tell what the ray starts in.
+  const ScatteringMedium* const start = boundary_count_ == 0 ? start_ : nullptr;
+  if (!absorbed_ && !start) return transmittance_ * nested;
+  Color all = depth_, inside = inside_;
+  if (start) inside += start->extinction;
+  if (distance < kInfinity) all += inside.max(0.0f) * distance;
   return transmittance_ * nested * (-all.max(0.0f)).exp();
 }
 
@@ -61,7 +65,10 @@ Color ShadowTransmittance::passed(const Coverage& coverage, float distance) {
     if (first && !b->front && b->volume != scene::kNoVolume) in.enter(b->volume);
   }
   const Media& media = coverage.media();
-  Color light = Color::Ones(), absorption = Color::Zero(), here = media.of(in.strongest()).absorption;
+  const auto extinction = [](const ScatteringMedium* inside) {
+    return inside ? inside->extinction : Color(Color::Zero());
+  };
+  Color light = Color::Ones(), absorption = Color::Zero(), here = extinction(media.of(in.strongest()).inside);
   float at = 0.0f;
   for (const Boundary& b : all) {
     const Passage passage = coverage.pass(b.hit(), direction_, in);
@@ -69,7 +76,7 @@ Color ShadowTransmittance::passed(const Coverage& coverage, float distance) {
     absorption += here * (b.t - at);
     at = b.t;
     light *= passage.transmittance;
-    here = cross(media, in, b.volume, b.front, [&] { return passage.absorption; });
+    here = extinction(cross(media, in, b.volume, b.front, coverage.material_of(b.instance)));
   }
   if (distance < kInfinity) absorption += here * (distance - at);
   return light * (-absorption).exp();

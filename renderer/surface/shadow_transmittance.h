@@ -41,8 +41,9 @@ class ShadowTransmittance {
   /// Optical depth of the media along the ray: up to the ends that were met, minus that before their
   /// beginnings.
   Color depth_{0.0f, 0.0f, 0.0f};
-  Color inside_{0.0f, 0.0f, 0.0f};  ///< absorption per metre of the media that have not ended
-  bool absorbed_ = false;           ///< whether one of the media absorbs
+  Color inside_{0.0f, 0.0f, 0.0f};           ///< absorption per metre of the media that have not ended
+  bool absorbed_ = false;                    ///< whether one of the media absorbs
+  const ScatteringMedium* start_ = nullptr;  ///< Ray::inside
   int panes_ = 0;
   int boundary_count_ = 0;          ///< of volumes of Media, among the panes
   std::uint64_t met_[kMaxPanes];    ///< the first `panes_` are set; spatial splits repeat a triangle

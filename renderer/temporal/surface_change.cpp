@@ -76,7 +76,7 @@ float surface_change(const Surface& now, const Surface& earlier) {
 }
 
 Color light_through(const scene::Material& m) {
-  return m.has_volume() ? Color((-absorption_of(m) * m.thickness).exp()) : Color(Color::Ones());
+  return m.has_volume() ? Color((-extinction_of(m) * m.thickness).exp()) : Color(Color::Ones());
 }
 
 float inside_change(const scene::Material& now, const scene::Material& earlier) {

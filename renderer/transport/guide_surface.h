@@ -28,6 +28,15 @@ inline void record_guide(PathState& path, const SurfaceInteraction& m, FirstHit&
   path.sees_through = is_mirror_or_clear(m.surface.material);
 }
 
+/// Call it where a medium has scattered a path that has met a surface: behind mirrors and clear glass, that
+/// surface becomes the guide, with the colour of the medium.
+inline void record_medium(PathState& path, const Color& color, FirstHit& first) {
+  if (!path.sees_through || path.surfaces == 0) return;
+  first.guide.surface = -1;  // keeps its albedo
+  first.guide.albedo = first.guide.tint * color;
+  path.sees_through = false;
+}
+
 /// Sets the albedo of the path's current surface, from its BSDF.
 inline void set_albedo(const PathState& path, const Color& albedo, FirstHit& first) {
   if (path.surfaces == 0) first.albedo = albedo;

@@ -1,11 +1,39 @@
 #include "renderer/transport/path_integrator.h"
 
 #include "renderer/transport/guide_surface.h"
+#include "renderer/transport/medium_walk.h"
 
 namespace gatelight::renderer {
 
-PathBlock* PathIntegrator::scatter(std::uint32_t number, PathState& path, const Ray& ray, const Hit& hit,
-                                   Color& radiance, FirstHit* first, Scratch& scratch) const {
+[[gnu::noinline, gnu::cold]] bool PathIntegrator::walk(PathState& path, Ray& ray, Hit& hit, FirstHit* first,
+                                                       RayCounts& counts, Scratch& scratch) const {
+  const bool first_event = path.depth == 0;
+  const LobeShare volume{.rest = LobeShare::Rest::volume};
+  const Color carried = path.carried();
+  const MediumWalk walk = walk_medium(
+      context_, path, ray, hit, options_.max_depth, counts,
+      [&](const Color& light, const Ray& shadow, std::uint32_t number, int event) {
+        const Color contribution = carried * light;
+        const float weight = path.shadow_weight(contribution.maxCoeff(), path.contribution_threshold);
+        if (!(weight > 0.0f)) return;
+        scratch.shadow_rays.push_back(shadow);
+        PendingLight& pending =
+            scratch.pending.emplace_back(PendingLight{contribution * weight, path.index, number});
+        if (!scratch.passes.any()) return;
+        pending.direct = first_event && event == 1;
+        pending.lobes = first_event ? volume : scratch.passes.first_scattering(path.index).scattered;
+      });
+  if (walk.events > 0) {
+    if (first) record_medium(path, path.inside->color, *first);
+    if (scratch.passes.any() && first_event)
+      scratch.passes.first_scattering(path.index) = {volume, volume, true, walk.events > 1};
+  }
+  return walk.alive;
+}
+
+PathBlock* PathIntegrator::scatter(std::uint32_t number, PathState& path, Ray& ray, Hit& hit, Color& radiance,
+                                   FirstHit* first, RayCounts& counts, Scratch& scratch) const {
+  if (path.inside && path.inside->scatters() && !walk(path, ray, hit, first, counts, scratch)) return nullptr;
   const LightGroups& groups = context_.world.light_groups;
   // `group` returns the light group of the emission.
   const auto add = [&](const Emission& emission, bool background, const auto& group) {
@@ -40,6 +68,7 @@ void PathIntegrator::add_light(const PathState& path, const ShadingBlock& points
   const float weight = path.shadow_weight(contribution.maxCoeff(), path.contribution_threshold);
   if (!(weight > 0.0f)) return;
   scratch.shadow_rays.push_back(shadow_ray_at(points, lane));
+  scratch.shadow_rays.back().inside = path.shadow_inside(context_);
   PendingLight& pending =
       scratch.pending.emplace_back(PendingLight{contribution * weight, path.index, points.light[lane]});
   if (!scratch.passes.any()) return;
@@ -82,9 +111,9 @@ void PathIntegrator::trace(std::span<const CameraSample> samples, std::span<Samp
   }
   trace_waves(
       context_.world, {}, scratch, counts,
-      [&](std::uint32_t number, PathState& path, Ray& ray, const Hit& hit) {
+      [&](std::uint32_t number, PathState& path, Ray& ray, Hit& hit) {
         FirstHit* const first = first_hits.empty() ? nullptr : &first_hits[path.index];
-        return scatter(number, path, ray, hit, results[path.index].radiance, first, scratch);
+        return scatter(number, path, ray, hit, results[path.index].radiance, first, counts, scratch);
       },
       [&](PathBlock& block) { shade(block, first_hits, scratch); },
       [&](const PendingLight& light, const Color& transmittance) {

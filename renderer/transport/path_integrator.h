@@ -49,8 +49,10 @@ class PathIntegrator {
 
  private:
   /// `radiance` is the path's sum; `first` receives its first hit unless it is null.
-  PathBlock* scatter(std::uint32_t number, PathState& path, const Ray& ray, const Hit& hit, Color& radiance,
-                     FirstHit* first, Scratch& scratch) const;
+  PathBlock* scatter(std::uint32_t number, PathState& path, Ray& ray, Hit& hit, Color& radiance,
+                     FirstHit* first, RayCounts& counts, Scratch& scratch) const;
+  /// Walks through the medium around a path. False: the path ends there.
+  bool walk(PathState& path, Ray& ray, Hit& hit, FirstHit* first, RayCounts& counts, Scratch& scratch) const;
   /// Adds the light sample of a lane, unless it is black or roulette ends it.
   void add_light(const PathState& path, const ShadingBlock& points, int lane, Scratch& scratch) const;
   void shade(PathBlock& block, std::span<FirstHit> first_hits, Scratch& scratch) const;

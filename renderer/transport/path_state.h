@@ -77,11 +77,6 @@ struct SurfaceInteraction {
         surface(world.surfaces.at(hit, ray.direction, width, u_level)),
         wo(-ray.direction),
         cone_width(width) {}
-
-  Bsdf bsdf() const {
-    return {surface.material, surface.geometric_normal, surface.shading_normal, surface.coat_normal, wo,
-            surface.front};
-  }
 };
 
 /// A sampled direction. Its weight leaves out radiance_scale.
@@ -92,9 +87,9 @@ struct DirectionSample : BsdfSample {
 
 struct PathState {
   RayCone cone;
-  Color throughput{1.0f, 1.0f, 1.0f};  ///< without radiance_scale
-  Color absorption{0.0f, 0.0f, 0.0f};  ///< per metre, of the medium the ray travels in
-  MediumStack interior;                ///< the volumes of World::media that it travels in
+  Color throughput{1.0f, 1.0f, 1.0f};        ///< without radiance_scale
+  const ScatteringMedium* inside = nullptr;  ///< what the ray travels in; null: nothing
+  MediumStack interior;                      ///< the volumes of World::media that it travels in
   PreviousVertex previous;
   /// Product of BsdfSample::radiance_scale, which is no loss of power. In double: with hundreds of nested
   /// media it leaves the range of single precision before it returns to 1.
@@ -115,7 +110,7 @@ struct PathState {
   PathState() = default;
   PathState(const World& world, const CameraSample& start, std::size_t which)
       : cone(start.camera_ray.cone),
-        absorption(world.media.of(start.around.strongest()).absorption),
+        inside(world.media.of(start.around.strongest()).inside),
         interior(start.around),
         sampler(start.sampler),
         index(static_cast<std::uint32_t>(which)),
@@ -152,8 +147,8 @@ struct PathState {
   SurfaceInteraction intersect(const PathContext& context, const Ray& ray, const Hit& hit, int max_depth) {
     SurfaceInteraction m(context.world, ray, hit, cone.width + cone.spread * hit.t,
                          texture_level_number(seed));
-    if ((absorption > 0.0f).any()) {
-      m.passed = (-absorption * hit.t).exp();
+    if (inside && !inside->scatters()) {
+      m.passed = (-inside->extinction * hit.t).exp();
       throughput *= m.passed;
     }
     Surface& surface = m.surface;
@@ -199,9 +194,7 @@ struct PathState {
     if (block.scalar.empty()) return put_surface(points, lane, m.surface, m.wo);
     put_geometry(points, lane, m.surface, m.wo);
     ScalarLane& scalar = block.scalar[static_cast<std::size_t>(lane)];
-    const Surface& s = m.surface;
-    scalar.bsdf.emplace(s.material, s.geometric_normal, s.shading_normal, s.coat_normal, m.wo, s.front);
-    scalar.thin_walled = m.surface.material.thin_walled;
+    put_lobes(scalar, m.surface, m.wo);
     scalar.only_panes = emission_only;
     scalar.front_lights = refracts_without_mis(context, m.surface);
     block.crossing[static_cast<std::size_t>(lane)] = {m.volume, m.unrefracted, m.same_medium};
@@ -210,9 +203,14 @@ struct PathState {
   /// Transmittance of the medium around the path for a light sample at this distance. One where shadow rays
   /// pass glass with an inside: these apply it where they leave the medium.
   Color transmittance(const PathContext& context, float distance) const {
-    if (!(absorption > 0.0f).any() || !(distance < kInfinity) || context.world.coverage.unrefracted_glass())
+    if (!inside || !(distance < kInfinity) || context.world.coverage.unrefracted_glass())
       return Color::Ones();
-    return (-absorption * distance).exp();
+    return (-inside->extinction * distance).exp();
+  }
+
+  /// Ray::inside of a shadow ray from a surface in a medium that scatters, where transmittance() is one.
+  const ScatteringMedium* shadow_inside(const PathContext& context) const {
+    return inside && inside->scatters() && context.world.coverage.unrefracted_glass() ? inside : nullptr;
   }
 
   /// Russian roulette of a light sample whose contribution has this largest channel: the factor to its
@@ -289,8 +287,8 @@ struct PathState {
     const PathBlock::Crossing& m = block.crossing[static_cast<std::size_t>(lane)];
     radiance_scale *= static_cast<double>(scalar.radiance_scale);
     if (sampled.transmitted && (m.unrefracted || m.same_medium || !scalar.thin_walled)) {
-      absorption = cross(context.world.media, interior, m.volume, block.front[lane],
-                         [&] { return absorption_of(context.world.surfaces.material(instance)); });
+      inside = cross(context.world.media, interior, m.volume, block.front[lane],
+                     context.world.coverage.material_of(instance));
     }
     return (m.same_medium && !m.unrefracted) || (sampled.transmitted && scalar.front_lights);
   }
@@ -329,8 +327,11 @@ inline DirectionSample direction_sample_at(const SurfaceBlock& block, int lane) 
 
 /// The shadow ray of a lane's light sample.
 inline Ray shadow_ray_at(const ShadingBlock& p, int lane) {
-  return {lane_vector(p.shadow_origin, lane), p.shadow_length[lane], lane_vector(p.light_direction, lane),
-          p.shadow_seed[lane], p.time[lane]};
+  return {.origin = lane_vector(p.shadow_origin, lane),
+          .t_max = p.shadow_length[lane],
+          .direction = lane_vector(p.light_direction, lane),
+          .seed = p.shadow_seed[lane],
+          .time = p.time[lane]};
 }
 
 }  // namespace gatelight::renderer

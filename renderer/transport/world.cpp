@@ -66,7 +66,7 @@ World::World(const scene::Scene& scene_in, const WorldOptions& options, const Re
       requirements(scene::compute_requirements(scene)),
       lasting(reusable_parts(scene, options, earlier)),
       textures(*lasting.textures),
-      media(scene, requirements.nested_volumes),
+      media(scene, requirements.nested_volumes, options.glass_shadows == GlassShadows::straight),
       environment(*lasting.environment),
       coverage(scene, textures, media, options.glass_shadows == GlassShadows::straight),
       surfaces(scene, textures),

@@ -67,6 +67,17 @@ std::vector<FurnaceMaterial> cases() {
                    m.roughness = 0.3f, m.transmission = 0.5f, m.diffuse_transmission = 0.5f,
                    m.thickness = 1.0f;
                  }});
+  const auto body = [](Material& m, float distance, float g) {
+    m.thickness = 1.0f, m.attenuation_distance = distance, m.attenuation_color = Color(0.3f, 0.5f, 0.7f);
+    m.multiscatter_color = Color::Ones(), m.scatter_anisotropy = g;
+  };
+  all.push_back(
+      {"ThinMilk", [=](Material& m) { m.transmission = 1.0f, m.ior = 1.33f, body(m, 2.0f, 0.0f); }});
+  all.push_back(
+      {"DenseMilk", [=](Material& m) { m.transmission = 1.0f, m.ior = 1.33f, body(m, 0.1f, 0.7f); }});
+  all.push_back({"BackwardJelly",
+                 [=](Material& m) { m.roughness = 0.4f, m.transmission = 1.0f, body(m, 0.5f, -0.8f); }});
+  all.push_back({"Wax", [=](Material& m) { m.diffuse_transmission = 1.0f, body(m, 0.1f, 0.0f); }});
   all.push_back({"SmoothCoatOnMatte", [](Material& m) { m.roughness = 1.0f, m.clearcoat = 1.0f; }});
   all.push_back({"RoughCoatOnMetal", [](Material& m) {
                    m.metallic = 1.0f, m.roughness = 0.3f, m.clearcoat = 1.0f, m.clearcoat_roughness = 0.4f;
