@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <functional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -40,7 +41,7 @@ class RenderPassLayers : public ::testing::Test {
 };
 
 const std::vector<float>& pass(const Picture& picture, Aov aov) {
-  return picture.find(info_of(aov).name)->values;
+  return picture.find(std::string(info_of(aov).name))->values;
 }
 
 double sum_of(const std::vector<float>& values) {
@@ -198,10 +199,11 @@ TEST_F(OneBall, DirectDiffuseLightOfAFurnaceIsTheAlbedo) {
   o.spp = 64;
   const Picture picture = rendered(o);
   const std::vector<float>& direct = pass(picture, Aov::diffuse_direct);
+  constexpr double kAlbedo[] = {0.2, 0.5, 0.8};
   for (std::size_t c = 0; c < 3; ++c) {
     double sum = 0.0;
     for (std::size_t i = c; i < direct.size(); i += 3) sum += static_cast<double>(direct[i]);
-    EXPECT_NEAR(3.0 * sum / static_cast<double>(direct.size()), std::array{0.2, 0.5, 0.8}[c], 0.005);
+    EXPECT_NEAR(3.0 * sum / static_cast<double>(direct.size()), kAlbedo[c], 0.005);
   }
 }
 
