@@ -21,14 +21,14 @@ TEST(LightGroupOptions, AreReadAndWritten) {
   const std::string text = "key=Sun,Lamp*;sky-2_b=environment;odd=a=b, c";
   const std::vector<LightGroup> groups = {
       {"key", {"Sun", "Lamp*"}}, {"sky-2_b", {"environment"}}, {"odd", {"a=b", " c"}}};
-  EXPECT_EQ(read_light_groups(text), groups);
+  EXPECT_EQ(read_light_groups(kName, text), groups);
   EXPECT_EQ(text_of(groups), text);
-  EXPECT_TRUE(read_light_groups("none").empty());
+  EXPECT_TRUE(read_light_groups(kName, "none").empty());
 }
 
 TEST(LightGroupOptions, BadOnesAreRefused) {
   const auto refuse = [](const std::string& text, const ErrorParts& wanted) {
-    expect_refused_parts<BadOption>([&] { read_light_groups(text); }, wanted);
+    expect_refused_parts<BadOption>([&] { read_light_groups(kName, text); }, wanted);
   };
   refuse("", {kName, "", "", "NAME=LIGHT"});
   refuse("key", {kName, "key", "", "NAME=LIGHT"});
@@ -42,7 +42,7 @@ TEST(LightGroupOptions, BadOnesAreRefused) {
   refuse("rest=Sun", {kName, "rest=Sun", "", "another"});
   std::string many = "a0=x";
   for (int i = 1; i < 16; ++i) many += ";a" + std::to_string(i) + "=x";
-  EXPECT_EQ(read_light_groups(many).size(), 16u);
+  EXPECT_EQ(read_light_groups(kName, many).size(), 16u);
   refuse(many + ";b=x", {kName, "", "17", "16"});
 }
 
