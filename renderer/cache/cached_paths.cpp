@@ -7,7 +7,6 @@
 #include "renderer/cache/scene_layout.h"
 #include "renderer/shading/lobe_widths.h"
 #include "renderer/transport/guide_surface.h"
-#include "renderer/transport/medium_walk.h"
 
 namespace gatelight::renderer {
 namespace {
@@ -83,42 +82,6 @@ void CachedPaths::add_emission(const Path& path, const Emission& found, bool bac
                            from.link * path.weights.emission * emission);
   if (from.record != kNone && (options_.cached.emission() || path.through_medium))
     batch.target(from.record) += path.weights.cached * emission;
-}
-
-[[gnu::noinline, gnu::cold]] bool CachedPaths::walk(Path& path, Ray& ray, Hit& hit, const PathPlan& plan,
-                                                    PathBatch& batch, FirstHit* first, RayCounts& counts,
-                                                    Scratch& scratch) const {
-  const bool first_event = path.depth == 0;
-  const LobeShare volume{.rest = LobeShare::Rest::volume};
-  const Color throughput = path.throughput;
-  const MediumWalk walk = walk_medium(
-      context_, path, ray, hit, plan.max_depth, counts,
-      [&](const Color& arriving, const Ray& shadow, std::uint32_t, int event) {
-        const Color light = arriving * path.scale();
-        const float weight =
-            plan.contribution_threshold > 0.0f
-                ? 1.0f
-                : path.shadow_weight((throughput * light).maxCoeff(), path.contribution_threshold);
-        if (!(weight > 0.0f)) return;
-        scratch.shadow_rays.push_back(shadow);
-        Pending& pending = scratch.pending.emplace_back(Pending{
-            path.vertex, path.weights.scattered * light * weight, path.weights.cached * light * weight});
-        pending.of_medium = true;
-        pending.path = path.index;
-        pending.lobes = volume;
-        pending.indirect = !first_event || event > 1;
-      });
-  path.weights *= walk.factor;
-  if (walk.events == 0) return walk.alive;
-  // Emission that the path finds now is light that the medium has scattered.
-  path.weights.emission = path.weights.scattered;
-  path.through_medium = true;
-  path.wide_events += 1;
-  path.spread += walk.spread;
-  if (first) record_medium(path, path.inside->color, *first);
-  if (batch.passes.any() && first_event)
-    batch.passes.first_scattering(path.index) = {volume, volume, true, walk.events > 1};
-  return walk.alive;
 }
 
 PathBlock* CachedPaths::scatter(std::uint32_t number, Path& path, Ray& ray, Hit& hit, const PathPlan& plan,
@@ -225,17 +188,6 @@ void CachedPaths::shade(PathBlock& block, const PathPlan& plan, PathBatch& batch
     const LobeShare lobes{Color::Zero(), rest_of(sampled.transmitted)};
     follow(path, block, lane, sampled, {sampled.weight, sampled.weight}, vertices[lane], {lobes, lobes},
            batch, scratch);
-  }
-}
-
-void CachedPaths::shade_diffuse(const PathBlock& block, bool all_lobes, PathBlock& copy) const {
-  copy = block;
-  if (all_lobes) {
-    diffuse_shading_->scatter(copy);
-  } else if (separate_delta_) {
-    diffuse_shading_->delta_light(copy);
-  } else {
-    diffuse_shading_->albedo(copy);
   }
 }
 

@@ -26,59 +26,6 @@ class Texture:
     @property
     def index(self) -> int: ...
 
-class Material:
-    @property
-    def index(self) -> int: ...
-    name: str
-    base_color: tuple[float, float, float]
-    base_alpha: float
-    base_color_texture: Texture | None
-    metallic: float
-    roughness: float
-    metallic_roughness_texture: Texture | None
-    normal_texture: Texture | None
-    normal_scale: float
-    emission: tuple[float, float, float]
-    emission_texture: Texture | None
-    alpha_mode: str
-    alpha_cutoff: float
-    double_sided: bool
-    unlit: bool
-    ior: float
-    specular: float
-    specular_texture: Texture | None
-    specular_color: tuple[float, float, float]
-    specular_color_texture: Texture | None
-    transmission: float
-    transmission_texture: Texture | None
-    thickness: float
-    attenuation_distance: float
-    attenuation_color: tuple[float, float, float]
-    dispersion: float
-    anisotropy: float
-    anisotropy_rotation: float
-    anisotropy_texture: Texture | None
-    iridescence: float
-    iridescence_texture: Texture | None
-    film_ior: float
-    film_thickness_minimum: float
-    film_thickness_maximum: float
-    film_thickness_texture: Texture | None
-    clearcoat: float
-    clearcoat_texture: Texture | None
-    clearcoat_roughness: float
-    clearcoat_roughness_texture: Texture | None
-    clearcoat_normal_texture: Texture | None
-    clearcoat_normal_scale: float
-    diffuse_transmission: float
-    diffuse_transmission_texture: Texture | None
-    diffuse_transmission_color: tuple[float, float, float]
-    diffuse_transmission_color_texture: Texture | None
-    sheen_color: tuple[float, float, float]
-    sheen_color_texture: Texture | None
-    sheen_roughness: float
-    sheen_roughness_texture: Texture | None
-
 class Mesh:
     @property
     def index(self) -> int: ...

@@ -140,7 +140,7 @@ class OneBall : public RenderPassLayers {
     SceneBuilder builder;
     builder.sphere(builder.material(material), Vec3(0, 0, 0), 1.0f, 32, true);
     builder.quad(builder.material(SceneBuilder::lambert(Color::Zero(), Color::Constant(4.0f))),
-                 Vec3(-1, 2, 1), Vec3(2, 0, 0), Vec3(0, 0, -2));
+                 Vec3(-1, 1.5f, 1), Vec3(0, 0, -2), Vec3(2, 0, 0));
     scene = builder.scene();
     RenderOptions o = options();
     o.integrator = integrator;
