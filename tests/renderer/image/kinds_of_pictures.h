@@ -109,7 +109,6 @@ inline const Kind kKinds[] = {
      [](RenderOptions& o) {
        o.light_groups = {{"lamp", {"*"}}, {"sky", {"environment"}}};
        testing::denoise(o);
-       o.denoise.parts = true;
        o.aovs = {Aov::raw, Aov::diffuse_direct, Aov::glossy_indirect};
      }},
     {"ao", Integrator::ao, [](RenderOptions&) {}},
