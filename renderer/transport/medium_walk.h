@@ -68,13 +68,15 @@ MediumWalk walk_medium(const PathContext& context, PathState& path, Ray& ray, Hi
     const Vec2 u = numbers.next_2d();
     const ChannelChoice choice(medium, path.throughput, u.x());
     const float distance = sample_distance(medium, choice, u.y());
+    // An event closer to a surface than its own rounding might lie behind it, outside of the medium.
+    const float reach = distance + 4e-6f * (ray.origin.cwiseAbs().maxCoeff() + distance);
     if (walk.events > 0) {
-      ray.t_max = distance;
+      ray.t_max = reach;
       context.world.accel.intersect(std::span<const Ray>(&ray, 1), std::span<Hit>(&hit, 1), false);
       ray.t_max = kInfinity;
       ++counts.bounce;
     }
-    const bool leaves = hit && hit.t <= distance;
+    const bool leaves = hit && hit.t <= reach;
     const bool lost = !leaves && !(distance < kInfinity);  // a channel without extinction, and no surface
     scale(flight(medium, choice, std::min(leaves ? hit.t : distance, 1e30f), !leaves && !lost).weight);
     if (leaves || lost) return walk;
