@@ -102,13 +102,13 @@ Option aov_option(std::vector<Aov>& aovs) {
   std::string help = "Further layers of EXR files, separated by commas: ";
   Words<Aov> words;
   for (const AovInfo& row : kAovs) {
-    help += row.help.empty() ? fmt::format("{}, ", row.name) : fmt::format("{} ({}), ", row.name, row.help);
     words["all"].push_back(row.aov);
+    if (row.source == AovSource::pass) continue;
+    help += row.help.empty() ? fmt::format("{}, ", row.name) : fmt::format("{} ({}), ", row.name, row.help);
   }
   words["passes"] = all_passes();
-  help +=
-      fmt::format("passes (the {} from {} to {}, whose sum is the picture), or all", words["passes"].size(),
-                  info_of(words["passes"].front()).name, info_of(words["passes"].back()).name);
+  help += fmt::format("passes (the picture in {} parts, from {} to {}), or all", words["passes"].size(),
+                      info_of(words["passes"].front()).name, info_of(words["passes"].back()).name);
   return {.name = "aov",
           .unit = "LIST",
           .help = help,
@@ -191,10 +191,11 @@ void add_denoise_options(OptionGroup& picture, DenoiseOptions& options) {
                      "Frames take over samples of earlier frames where they show the same surface "
                      "in the same light, before the denoiser"),
               {.in_sweep = false, .needs = {kDenoiser}});
-  picture.add(choice("denoise-parts", parts, kOnOff,
-                     "Denoises the layers of passes and light groups too, each by the picture's guides and in "
-                     "the picture's time, and scales them so that their sum is the picture"),
-              {.in_sweep = false, .needs = {kDenoiser}, .formats = {ImageFormat::exr}});
+  picture.add(
+      choice("denoise-parts", parts, kOnOff,
+             "Denoises the layers of passes and light groups too, each by the picture's guides and in "
+             "the picture's time, and scales them so that their sum is the picture"),
+      {.in_sweep = false, .needs = {kDenoiser}, .formats = {ImageFormat::exr}});
   picture.add(any_word("oidn", library, "FILE|FOLDER",
                        "Open Image Denoise 2, libOpenImageDenoise.so.2 (default: GATELIGHT_OIDN "
                        "of the environment, else where scripts/setup or the system have it)"),

@@ -141,7 +141,8 @@ void add_background(Texts& texts, const BackgroundOptions& options) {
 // The scene's fingerprint stands for the environment, `view` for the camera, `machine` for the instruction
 // set. Cryptomattes are neither in films nor in checkpoints.
 NamedTexts deciding_options(const RenderOptions& options, const View& view, const NamedTexts& machine) {
-  [[maybe_unused]] const auto& [denoiser, prefilter, supersampling, temporal, parts, library] = options.denoise;
+  [[maybe_unused]] const auto& [denoiser, prefilter, supersampling, temporal, parts, library] =
+      options.denoise;
   std::vector<std::string> layers;
   for (const Aov aov : options.aovs) layers.push_back(enum_name(aov));
   Texts texts;
@@ -154,6 +155,7 @@ NamedTexts deciding_options(const RenderOptions& options, const View& view, cons
   texts.add("denoiser", denoiser);
   texts.add("prefilter", prefilter);
   texts.add("supersampling", supersampling);
+  texts.add("denoise-parts", parts);
   texts.add("aov", fmt::format("{}", fmt::join(layers, ",")));
   texts.add("light-groups", options.light_groups.empty() ? "none" : text_of(options.light_groups));
   add_background(texts, options.background);

@@ -11,6 +11,7 @@
 #include <stdexcept>
 
 #include "apps/command_line.h"
+#include "apps/terminal/log.h"
 
 namespace gatelight::tests {
 namespace {
@@ -123,6 +124,7 @@ Output run_gatelight_inside(const std::vector<std::string>& arguments) {
   for (const std::string& word : arguments) argv.push_back(word.c_str());
   ::testing::internal::CaptureStdout();
   ::testing::internal::CaptureStderr();
+  apps::set_log_level(false, false);  // whatever a run before has set
   Output output;
   output.exit_code = apps::run(static_cast<int>(argv.size()), argv.data());
   output.out = ::testing::internal::GetCapturedStdout();

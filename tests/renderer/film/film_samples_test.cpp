@@ -130,8 +130,8 @@ TEST(FilmSamples, PartsAreScaledAndDroppedWithTheirSamples) {
   const std::vector<float> expected = {0.75f, 0.75f, 0.25f, 0.25f, 1.0f, 0.0f};
   const std::vector<float> expected_rest = {0.75f, 0.75f, 0.75f, 0.75f, 0.0f, 1.0f};
   for (std::size_t i = 0; i < 6; ++i) {
-    EXPECT_NEAR(picture.find("light-a")->values[i], expected[i], 1e-6f) << i;
-    EXPECT_NEAR(picture.find("light-rest")->values[i], expected_rest[i], 1e-6f) << i;
+    EXPECT_NEAR(picture.find("a")->values[i], expected[i], 1e-6f) << i;
+    EXPECT_NEAR(picture.find("rest")->values[i], expected_rest[i], 1e-6f) << i;
   }
 }
 
