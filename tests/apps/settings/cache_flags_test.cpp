@@ -155,14 +155,14 @@ TEST(CacheFlags, EveryFlagIsExplainedInAGroup) {
 TEST(CacheFlags, AovAllSelectsTheLayersOfTheIntegrator) {
   const std::vector<Aov> path = read_flags({"--aov", "all"}).render.aovs;
   const std::vector<Aov> cache = read_flags({"--aov", "all", "--integrator", "nrc"}).render.aovs;
-  EXPECT_EQ(path.size(), 12u + all_passes().size());
-  EXPECT_EQ(cache.size(), 18u + all_passes().size());
+  EXPECT_EQ(path.size(), 12u + renderer::all_passes().size());
+  EXPECT_EQ(cache.size(), 18u + renderer::all_passes().size());
   const std::vector<Aov> occlusion = read_flags({"--aov", "all", "--integrator", "nao"}).render.aovs;
   EXPECT_EQ(occlusion.size(), 16u);
   EXPECT_THAT(occlusion, Not(Contains(Aov::cache_error)));
   const std::vector<Aov> hash =
       read_flags(with_cache({"--aov", "all", "--encoding", "hashgrid"})).render.aovs;
-  EXPECT_EQ(hash.size(), 15u + all_passes().size());
+  EXPECT_EQ(hash.size(), 15u + renderer::all_passes().size());
   EXPECT_EQ(hash.back(), Aov::cache_error);
   EXPECT_THAT(read_flags({"--aov", "resolution,albedo", "--integrator", "nao"}).render.aovs,
               ElementsAre(Aov::albedo, Aov::resolution));
