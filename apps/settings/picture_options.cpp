@@ -104,7 +104,9 @@ Option aov_option(std::vector<Aov>& aovs) {
   for (const AovInfo& row : kAovs) {
     words["all"].push_back(row.aov);
     if (row.source == AovSource::pass) continue;
-    help += row.help.empty() ? fmt::format("{}, ", row.name) : fmt::format("{} ({}), ", row.name, row.help);
+    const bool plain =
+        row.help.empty() || row.needs >= AovNeeds::cache;  // the manual explains those of a cache
+    help += plain ? fmt::format("{}, ", row.name) : fmt::format("{} ({}), ", row.name, row.help);
   }
   words["passes"] = all_passes();
   help += fmt::format("passes (the picture in {} parts, from {} to {}), or all", words["passes"].size(),
