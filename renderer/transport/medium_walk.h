@@ -10,7 +10,6 @@
 #include "renderer/medium/phase.h"
 #include "renderer/medium/scattering_medium.h"
 #include "renderer/transport/path_state.h"
-#include "scene/scene.h"
 
 namespace gatelight::renderer {
 
@@ -50,16 +49,6 @@ class WalkNumbers {
   std::uint32_t state_;
 };
 
-/// Whether a ray in the medium `inside` meets its own boundary from outside: rounding has carried the path
-/// through it. Bodies that overlap track what is around a path, and are not asked.
-inline bool has_leaked(const World& world, const ScatteringMedium* inside, const Ray& ray, const Hit& hit) {
-  if (world.media.volume_of(hit.instance) != scene::kNoVolume ||
-      world.media.inside(world.coverage.material_of(hit.instance)) != inside)
-    return false;
-  const scene::Instance& instance = world.scene.instances[hit.instance];
-  return scene::world_normal(world.scene, instance, hit.primitive).dot(ray.direction) < 0.0f;
-}
-
 /// Walks through the medium `path.inside`, which scatters. `ray` and `hit`: the path's ray with its nearest
 /// hit; afterwards those with which it leaves. add_light(light, shadow ray, number of the light, event) is
 /// called for each light sample: `light` is its radiance at the walk's beginning if nothing is in between,
@@ -90,10 +79,7 @@ MediumWalk walk_medium(const PathContext& context, PathState& path, Ray& ray, Hi
     const bool leaves = hit && hit.t <= reach;
     const bool lost = !leaves && !(distance < kInfinity);  // a channel without extinction, and no surface
     scale(flight(medium, choice, std::min(leaves ? hit.t : distance, 1e30f), !leaves && !lost).weight);
-    if (leaves || lost) {
-      walk.alive = walk.events == 0 || lost || !has_leaked(context.world, path.inside, ray, hit);
-      return walk;
-    }
+    if (leaves || lost) return walk;
     if (path.depth >= max_depth && walk.events == 0) break;
     if (++walk.events == 1) path.depth += 1;
     if (walk.events == kMaxWalk) break;
