@@ -109,8 +109,7 @@ Option aov_option(std::vector<Aov>& aovs) {
     help += plain ? fmt::format("{}, ", row.name) : fmt::format("{} ({}), ", row.name, row.help);
   }
   words["passes"] = all_passes();
-  help += fmt::format("passes (the picture in {} parts, from {} to {}), or all", words["passes"].size(),
-                      info_of(words["passes"].front()).name, info_of(words["passes"].back()).name);
+  help += "passes (parts of the light), or all";
   return {.name = "aov",
           .unit = "LIST",
           .help = help,
