@@ -109,7 +109,7 @@ Option aov_option(std::vector<Aov>& aovs) {
     help += plain ? fmt::format("{}, ", row.name) : fmt::format("{} ({}), ", row.name, row.help);
   }
   words["passes"] = all_passes();
-  help += "passes (parts of the light), or all";
+  help += "passes (light in parts), all";
   return {.name = "aov",
           .unit = "LIST",
           .help = help,
