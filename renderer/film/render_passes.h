@@ -36,9 +36,6 @@ class RenderPasses {
   bool any() const { return !first_scattering_.empty(); }
   /// All parts of the first sample, then those of the next.
   std::span<const Color> parts() const { return parts_; }
-  std::span<const Color> parts_of(std::size_t sample) const {
-    return std::span(parts_).subspan(sample * stride_, stride_);
-  }
 
   void add_to_group(std::size_t sample, std::size_t group, const Color& light) {
     parts_[sample * stride_ + group] += light;

@@ -30,13 +30,6 @@ struct ScatteringMedium {
   bool scatters() const { return (albedo * extinction > 0.0f).any(); }
 };
 
-/// A flight of light through a medium, up to a scattering event or to the end of the medium.
-struct FreeFlight {
-  float distance = 0.0f;           ///< metres
-  bool scatters = false;           ///< it ends by an event
-  Color weight{0.0f, 0.0f, 0.0f};  ///< transmittance, times scattering at an event, over the probability
-};
-
 /// The channel by which a distance is sampled, and the probability of each: in proportion to what each would
 /// carry on.
 struct ChannelChoice {
@@ -63,16 +56,17 @@ inline float sample_distance(const ScatteringMedium& medium, const ChannelChoice
   return extinction > 0.0f ? -std::log1p(-u) / extinction : kInfinity;
 }
 
-/// The flight that ends by an event at this distance, or without one at the end of the medium. Sampling by
-/// any of the channels counts (one-sample multiple importance sampling with the balance heuristic), so that
-/// the weight of no channel exceeds one over the probability of that channel.
-inline FreeFlight flight(const ScatteringMedium& medium, const ChannelChoice& choice, float distance,
-                         bool scatters) {
+/// The weight of a flight that ends by an event at this distance, or without one at the end of the medium:
+/// transmittance, times scattering at an event, over the probability. Sampling by any of the channels counts
+/// (one-sample multiple importance sampling with the balance heuristic), so that the weight of no channel
+/// exceeds one over the probability of that channel.
+inline Color flight_weight(const ScatteringMedium& medium, const ChannelChoice& choice, float distance,
+                           bool scatters) {
   const Color transmittance = (-medium.extinction * distance).exp();
   const Color density = scatters ? Color(medium.extinction * transmittance) : transmittance;
   const float all = (choice.probability * density).sum();
-  if (!(all > 0.0f)) return {distance, scatters, Color::Zero()};
-  return {distance, scatters, scatters ? Color(density * medium.albedo / all) : Color(density / all)};
+  if (!(all > 0.0f)) return Color::Zero();
+  return scatters ? Color(density * medium.albedo / all) : Color(density / all);
 }
 
 }  // namespace gatelight::renderer

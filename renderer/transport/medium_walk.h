@@ -9,6 +9,7 @@
 
 #include "renderer/medium/phase.h"
 #include "renderer/medium/scattering_medium.h"
+#include "renderer/settings/statistics.h"
 #include "renderer/transport/path_state.h"
 
 namespace gatelight::renderer {
@@ -78,7 +79,7 @@ MediumWalk walk_medium(const PathContext& context, PathState& path, Ray& ray, Hi
     }
     const bool leaves = hit && hit.t <= reach;
     const bool lost = !leaves && !(distance < kInfinity);  // a channel without extinction, and no surface
-    scale(flight(medium, choice, std::min(leaves ? hit.t : distance, 1e30f), !leaves && !lost).weight);
+    scale(flight_weight(medium, choice, std::min(leaves ? hit.t : distance, 1e30f), !leaves && !lost));
     if (leaves || lost) return walk;
     if (path.depth >= max_depth && walk.events == 0) break;
     if (++walk.events == 1) path.depth += 1;

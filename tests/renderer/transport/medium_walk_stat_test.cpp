@@ -4,7 +4,9 @@
 
 #include <array>
 #include <cmath>
+#include <optional>
 #include <random>
+#include <span>
 #include <vector>
 
 #include "renderer/medium/phase.h"
@@ -84,7 +86,7 @@ TEST(Flight, IsUnbiasedForEachChannel) {
         const ChannelChoice choice(medium, throughput, random());
         const float distance = sample_distance(medium, choice, random());
         const bool event = distance < end;
-        const Color weight = flight(medium, choice, event ? distance : end, event).weight * throughput;
+        const Color weight = flight_weight(medium, choice, event ? distance : end, event) * throughput;
         for (std::size_t c = 0; c < 3; ++c) {
           const auto value = static_cast<double>(weight[static_cast<Eigen::Index>(c)]);
           passed[c].add(event ? 0.0 : value);
