@@ -239,12 +239,12 @@ std::vector<Body> closed_bodies(const Scene& scene, std::vector<Body> bodies) {
 
 }  // namespace
 
-NestedVolumes find_nested_volumes(const Scene& scene) {
+NestedVolumes find_nested_volumes(const Scene& scene, bool all) {
   std::vector<Body> bodies =
       find_bodies(scene, [](const Instance& instance, const Material&) { return instance.placement >= 0; });
-  keep_those_that_touch(bodies);
+  if (!all) keep_those_that_touch(bodies);
   bodies = closed_bodies(scene, std::move(bodies));
-  keep_those_that_touch(bodies);
+  if (!all) keep_those_that_touch(bodies);
   const auto strength = [&](const Body& body) {
     const std::uint32_t first = body.instances.front();
     // Volumes that differ by rounding are the same.

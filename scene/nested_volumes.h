@@ -28,7 +28,8 @@ struct NestedVolumes {
   bool empty() const { return instances.empty(); }
 };
 
-NestedVolumes find_nested_volumes(const Scene& scene);
+/// `all`: lists volumes that touch no other, too.
+NestedVolumes find_nested_volumes(const Scene& scene, bool all = false);
 
 /// The materials that scatter in a body with a hole, which light might never leave, in order.
 std::vector<int> open_scatterers(const Scene& scene);

@@ -21,6 +21,12 @@ std::vector<std::string> warnings_of(const renderer::RenderStatistics& statistic
         fmt::format("{} samples were not finite and are left out; the statistics locate the first of them",
                     statistics.nonfinite));
   }
+  if (const std::uint64_t paths = statistics.rays.ended_walks; paths > 0) {
+    warnings.push_back(fmt::format(
+        "{} paths ended after 65536 scattering events in a body: it is too dark, because it absorbs next to "
+        "nothing and is much thicker than a mean free path",
+        paths));
+  }
   return warnings;
 }
 

@@ -32,6 +32,25 @@ OptionValue environment_value(const EnvironmentOptions& environment) {
   return std::vector<float>{rgb.x(), rgb.y(), rgb.z()};
 }
 
+std::optional<FogOptions> read_fog(const std::string& option, const std::string& text) {
+  if (text == "none") return {};
+  const std::vector<std::string> parts = split(text, ',');
+  if (parts.size() != 1 && parts.size() != 4 && parts.size() != 5)
+    throw BadOption({option, text, "", "none, DENSITY, DENSITY,r,g,b or DENSITY,r,g,b,g"});
+  FogOptions fog{.density = parse_float(option, parts[0], {.min = 0.0, .max = 1e12})};
+  if (parts.size() > 1) {
+    for (Eigen::Index c = 0; c < 3; ++c)
+      fog.albedo[c] = parse_float(option, parts[static_cast<std::size_t>(c) + 1], {.min = 0.0, .max = 1.0});
+  }
+  if (parts.size() == 5) fog.anisotropy = parse_float(option, parts[4], {-0.99, 0.99});
+  return fog;
+}
+
+OptionValue fog_value(const std::optional<FogOptions>& fog) {
+  if (!fog) return "none";
+  return std::vector<float>{fog->density, fog->albedo.x(), fog->albedo.y(), fog->albedo.z(), fog->anisotropy};
+}
+
 void read_background(BackgroundOptions& background, const std::string& text) {
   using Kind = BackgroundOptions::Kind;
   background = {.shadow_catcher = background.shadow_catcher};
@@ -115,7 +134,7 @@ void add_view_options(std::vector<Option>& table, renderer::CameraOptions& camer
                      "METRES", "Height of the view of an orthographic picture"),
            {.of_view = true});
   add_lens_options(view, lens);
-  [[maybe_unused]] auto& [automatic, file, constant, sky, rotation_degrees, scale] =
+  [[maybe_unused]] auto& [automatic, file, constant, sky, rotation_degrees, scale, fog] =
       environment;  // one flag sets the first three
   view.add(
       {.name = "environment",
@@ -141,6 +160,11 @@ void add_view_options(std::vector<Option>& table, renderer::CameraOptions& camer
                   if (text != "none") environment.sky = read_sky("sky", text);
                 }},
            {.in_window = true, .excludes = {"environment"}});
+  view.add(read_by("fog", fog, "none|DENSITY[,r,g,b[,g]]",
+                   "Fog in the bounds of the scene: extinction per metre, the part of it that is scattering "
+                   "[1,1,1], and the mean cosine of scattering [0], from -0.99 to 0.99",
+                   fog_value, read_fog),
+           {.in_window = true});
   // One flag sets the first three.
   [[maybe_unused]] auto& [kind, color, background_file, shadow_catcher] = background;
   view.add(

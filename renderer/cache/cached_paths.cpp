@@ -88,7 +88,7 @@ PathBlock* CachedPaths::scatter(std::uint32_t number, Path& path, Ray& ray, Hit&
                                 PathBatch& batch, std::span<FirstHit> first_hits, RayCounts& counts,
                                 Scratch& scratch) const {
   FirstHit* const first = first_hits.empty() ? nullptr : &first_hits[path.index];
-  if (path.inside && path.inside->scatters() && !walk(path, ray, hit, plan, batch, first, counts, scratch))
+  if (path.inside && path.inside->scatters && !walk(path, ray, hit, plan, batch, first, counts, scratch))
     return nullptr;
   if (!hit || path.looks_through(context_, hit)) {
     if (first) record_background(path, *first);
@@ -98,7 +98,7 @@ PathBlock* CachedPaths::scatter(std::uint32_t number, Path& path, Ray& ray, Hit&
   }
   SurfaceInteraction m = path.intersect(context_, ray, hit, plan.max_depth);
   path.weights *= m.passed;
-  if (first && path.surfaces == 0) *first = first_hit(hit, m.surface, context_.world.scene.origin);
+  if (first && path.is_unscattered()) *first = first_hit(hit, m.surface, context_.world.scene.origin);
   if (first) record_guide(path, m, *first);
   add_emission(path, m.emission, false, batch);
   if (m.ends) return nullptr;
@@ -171,7 +171,7 @@ void CachedPaths::shade(PathBlock& block, const PathPlan& plan, PathBatch& batch
     const bool guides = seeks_guide(path, batch);
     if (guides) set_guide(path, point, true, vertices[lane], batch);
     if (all_lobes || separate_delta_)
-      add_light(path, points, lane, false, guides, vertices[lane],
+      add_light(path, block, lane, false, guides, vertices[lane],
                 plan.passes ? share_of_light(diffuse, lane) : LobeShare{}, plan, scratch);
     if (all_lobes && points.alive[lane])
       follow_direct(path, block, lane, kind == kCacheAndNarrow, vertices[lane], batch, scratch);
@@ -181,7 +181,7 @@ void CachedPaths::shade(PathBlock& block, const PathPlan& plan, PathBatch& batch
   for (int lane = 0; lane < points.count; ++lane) {
     Path& path = scratch.paths[scratch.path_of[block.path[lane]]];
     if (!separate_delta_ || !points.light_is_delta[lane])
-      add_light(path, points, lane, false, false, vertices[lane],
+      add_light(path, block, lane, false, false, vertices[lane],
                 {Color::Zero(), rest_of(plan.passes && light_is_behind(points, lane))}, plan, scratch);
     if (!points.alive[lane]) continue;
     const DirectionSample sampled = direction_sample_at(block, lane);
@@ -272,8 +272,8 @@ void CachedPaths::continue_from(Path& path, const PathBlock& block, int lane, co
     batch.answer_lobes.push_back({share_of(lane_color(diffuse.wide_albedo, lane), wide_albedo)});
   const bool guides = wide && seeks_guide(path, batch);
   if (guides) set_guide(path, point, stored, index, batch);
-  add_light(path, p, lane, record, guides, index, plan.passes ? share_of_light(diffuse, lane) : LobeShare{},
-            plan, scratch);
+  add_light(path, block, lane, record, guides, index,
+            plan.passes ? share_of_light(diffuse, lane) : LobeShare{}, plan, scratch);
   if (!p.alive[lane]) return;
   const DirectionSample sampled = direction_sample_at(block, lane);
   if (!sampled.delta && !(sampled.spread < options_.min_roughness * options_.min_roughness))
@@ -284,11 +284,14 @@ void CachedPaths::continue_from(Path& path, const PathBlock& block, int lane, co
          scratch);
 }
 
-void CachedPaths::add_light(const Path& path, const ShadingBlock& p, int lane, bool record, bool guides,
+void CachedPaths::add_light(const Path& path, const PathBlock& block, int lane, bool record, bool guides,
                             std::int32_t vertex, const LobeShare& lobes, const PathPlan& plan,
                             Scratch& scratch) const {
+  const ShadingBlock& p = block.points;
   if (!(lane_color(p.direct, lane) > 0.0f).any()) return;
-  const Color passed = path.transmittance(context_, p.shadow_length[lane]) * path.scale();
+  const auto [shadow, transmittance] =
+      path.shadow_ray(context_, block, lane, scratch.hits[block.path[lane]].instance);
+  const Color passed = transmittance * path.scale();
   const Color direct = lane_color(p.direct, lane) * passed;
   const float weight =
       plan.contribution_threshold > 0.0f
@@ -301,8 +304,7 @@ void CachedPaths::add_light(const Path& path, const ShadingBlock& p, int lane, b
   const bool delta = p.light_is_delta[lane] != 0, holds = options_.cached.light_sample(delta);
   const Color wide = lane_color(p.wide_direct, lane) * passed * weight;
   const Color none = Color::Zero();
-  scratch.shadow_rays.push_back(shadow_ray_at(p, lane));
-  scratch.shadow_rays.back().inside = path.shadow_inside(context_);
+  scratch.shadow_rays.push_back(shadow);
   scratch.pending.push_back({vertex, direct * weight, record && holds ? wide : none,
                              guides && delta && !holds ? wide : none, lobes});
 }

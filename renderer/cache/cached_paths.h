@@ -133,7 +133,7 @@ class CachedPaths {
   /// Shades a copy of a block, whose diffuse lobes are separate; `all_lobes`: scatter() shades the block.
   void shade_diffuse(const PathBlock& block, bool all_lobes, PathBlock& copy) const;
   /// Adds the light sample of a lane to `vertex`, unless roulette ends it.
-  void add_light(const Path& path, const ShadingBlock& points, int lane, bool record, bool guides,
+  void add_light(const Path& path, const PathBlock& block, int lane, bool record, bool guides,
                  std::int32_t vertex, const LobeShare& lobes, const PathPlan& plan, Scratch& scratch) const;
   /// Makes the next ray of a lane whose vertex has all its direct light from samples: emission that the ray
   /// finds counts for all lobes, reflected light only for the narrow ones.

@@ -12,6 +12,7 @@ namespace gatelight::renderer {
   const bool first_event = path.depth == 0;
   const LobeShare volume{.rest = LobeShare::Rest::volume};
   const Color throughput = path.throughput;
+  const FirstHit unscattered = first ? unscattered_hit(context_, path, ray, hit) : FirstHit{};
   const MediumWalk walk = walk_medium(
       context_, path, ray, hit, plan.max_depth, counts,
       [&](const Color& arriving, const Ray& shadow, std::uint32_t, int event) {
@@ -36,7 +37,7 @@ namespace gatelight::renderer {
   path.through_medium = true;
   path.wide_events += 1;
   path.spread += walk.spread;
-  if (first) record_medium(path, path.inside->color, *first);
+  if (first) record_medium(path, path.inside->color, unscattered, *first);
   if (batch.passes.any() && first_event)
     batch.passes.first_scattering(path.index) = {volume, volume, true, walk.events > 1};
   return walk.alive;

@@ -115,7 +115,7 @@ Digest digest_file(const std::string& path) {
 }
 
 Digest digest_environment(const EnvironmentOptions& environment) {
-  const auto& [automatic, file, constant, sky, rotation_degrees, scale] = environment;
+  const auto& [automatic, file, constant, sky, rotation_degrees, scale, fog] = environment;
   DigestRecord record;
   record.add(automatic);
   record.add(!file.empty());
@@ -127,6 +127,11 @@ Digest digest_environment(const EnvironmentOptions& environment) {
     add_numbers(record, constant);
   }
   record.add(scale);
+  if (fog) {
+    record.add(fog->density);
+    add_numbers(record, fog->albedo);
+    record.add(fog->anisotropy);
+  }
   return record.digest();
 }
 

@@ -321,12 +321,36 @@ float Lights::pdf_local(const Vec3& p, const Vec3& n, std::uint32_t light) const
   return probability / static_cast<float>(1 + suns + (samples_sky(1 + suns) ? 1 : 0));
 }
 
+LightSample Lights::same_point_from(const Vec3& p, const LightSample& sample, const Vec3& from,
+                                    float time) const {
+  if (!(sample.distance < kInfinity)) return {};
+  if (sample.delta) {
+    const float choice = pdf_local(p, Vec3::Zero(), sample.light);
+    return sample_placed(p, sample.light - triangles_.size(), choice, time);
+  }
+  const Vec3 to_light = from + sample.distance * sample.wi - p;
+  LightSample seen = sample;
+  seen.distance = to_light.norm();
+  if (!(seen.distance > 0.0f)) return {};
+  seen.wi = to_light / seen.distance;
+  EmissiveTriangle moved;
+  const EmissiveTriangle& triangle = triangles_.at(sample.light, time, moved);
+  seen.cosine = cos_emitted(triangle, seen.wi);
+  if (!(seen.cosine > 0.0f)) return {};
+  seen.pdf = pdf_triangle(p, Vec3::Zero(), sample.light, triangle, seen.wi, seen.distance);
+  return seen;
+}
+
 float Lights::pdf_triangle(const Vec3& p, const Vec3& n, std::uint32_t instance, std::uint32_t primitive,
                            const Vec3& wi, float distance, float time) const {
   const std::uint32_t light = triangles_.find(instance, primitive);
   if (light == EmissiveTriangles::kNone || local_.empty()) return 0.0f;
   EmissiveTriangle moved;
-  const EmissiveTriangle& triangle = triangles_.at(light, time, moved);
+  return pdf_triangle(p, n, light, triangles_.at(light, time, moved), wi, distance);
+}
+
+float Lights::pdf_triangle(const Vec3& p, const Vec3& n, std::uint32_t light,
+                           const EmissiveTriangle& triangle, const Vec3& wi, float distance) const {
   if (!(triangle.area > 0.0f)) return 0.0f;
   const float cosine = cos_emitted(triangle, wi);
   if (!(cosine > 0.0f)) return 0.0f;

@@ -43,6 +43,15 @@ class Lights {
   LightSample sample(const Vec3& p, const Vec3& n, float u_select, const Vec2& u,
                      float time = scene::kShutterMiddle) const;
 
+  /// Whether there are lights with a position.
+  bool has_local() const { return !local_.empty(); }
+
+  /// The point of a light that sample(from, 0, ...) has returned, as seen from `p`: with the pdf that
+  /// sample(p, 0, ...) has for it. The pdf is 0 if it could not return it; the radiance is 0 if no light of
+  /// the point arrives there, or it has no position.
+  LightSample same_point_from(const Vec3& p, const LightSample& sample, const Vec3& from,
+                              float time = scene::kShutterMiddle) const;
+
   /// Whether there are point, spot or directional lights.
   bool has_delta() const { return !placed_.empty() || !distant_.empty(); }
   /// Like sample(), for only these lights, which BSDF sampling never finds. The pdf is the probability of the
@@ -92,6 +101,8 @@ class Lights {
   };
 
   float pdf_local(const Vec3& p, const Vec3& n, std::uint32_t light) const;
+  float pdf_triangle(const Vec3& p, const Vec3& n, std::uint32_t light, const EmissiveTriangle& triangle,
+                     const Vec3& wi, float distance) const;
   LightSample sample_triangle(const Vec3& p, std::uint32_t light, float choice, const Vec2& u,
                               float time) const;
   /// `number` is the index in placed_.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "base/math.h"
 
@@ -18,16 +19,46 @@ inline Color single_scattering_albedo(const Color& multiple, float g) {
   return ((1.0f - s * s) / (1.0f - g * s * s)).max(0.0f).min(1.0f);
 }
 
+/// Distances along a ray, in metres.
+struct Span {
+  float begin = 0.0f;
+  float end = 0.0f;
+
+  float length() const { return end - begin; }
+  /// The length that lies after a distance.
+  float after(float distance) const { return std::max(0.0f, end - std::max(begin, distance)); }
+};
+
+/// The part of [0, end] in which a ray is in a box; empty where it misses it.
+inline Span clip(const Box& box, const Vec3& origin, const Vec3& direction, float end) {
+  Span span{0.0f, end};
+  for (int axis = 0; axis < 3; ++axis) {
+    const float low = box.min()[axis] - origin[axis], high = box.max()[axis] - origin[axis];
+    if (direction[axis] == 0.0f) {
+      if (low > 0.0f || high < 0.0f) return {};
+      continue;
+    }
+    const float a = low / direction[axis], b = high / direction[axis];
+    span = {std::max(span.begin, std::min(a, b)), std::min(span.end, std::max(a, b))};
+  }
+  return span.begin < span.end ? span : Span{};
+}
+
 /// Coefficients per metre.
 struct ScatteringMedium {
   Color extinction{0.0f, 0.0f, 0.0f};  ///< absorption and scattering
   Color albedo{0.0f, 0.0f, 0.0f};      ///< the part of the extinction that is scattering
   float anisotropy = 0.0f;             ///< of phase()
+  bool scatters = false;               ///< paths walk through it, event by event
   Color color{0.0f, 0.0f, 0.0f};       ///< the reflectance of a half space
-  /// Whether light samples reach its inside: shadow rays pass its boundary.
+  /// Whether light samples reach its inside: shadow rays pass its boundary, or it has none.
   bool sampled = false;
+  std::optional<Box> box = {};  ///< where it ends, if no surfaces enclose it
 
-  bool scatters() const { return (albedo * extinction > 0.0f).any(); }
+  /// The part of a ray of this length, between surfaces of the medium or in its box, in which it is there.
+  Span within(const Vec3& origin, const Vec3& direction, float length) const {
+    return box ? clip(*box, origin, direction, length) : Span{0.0f, length};
+  }
 };
 
 /// The channel by which a distance is sampled, and the probability of each: in proportion to what each would
@@ -54,6 +85,11 @@ struct ChannelChoice {
 inline float sample_distance(const ScatteringMedium& medium, const ChannelChoice& choice, float u) {
   const float extinction = medium.extinction[choice.channel];
   return extinction > 0.0f ? -std::log1p(-u) / extinction : kInfinity;
+}
+
+/// The density, per metre, of a flight that ends by an event at this distance, by any of the channels.
+inline float flight_density(const ScatteringMedium& medium, const ChannelChoice& choice, float distance) {
+  return (choice.probability * medium.extinction * (-medium.extinction * distance).exp()).sum();
 }
 
 /// The weight of a flight that ends by an event at this distance, or without one at the end of the medium:

@@ -8,6 +8,17 @@
 
 namespace gatelight::renderer {
 
+/// Homogeneous fog in the bounds of the scene, outside of its bodies.
+struct FogOptions {
+  float density = 0.0f;            ///< extinction per metre
+  Color albedo{1.0f, 1.0f, 1.0f};  ///< the part of the extinction that is scattering
+  float anisotropy = 0.0f;         ///< mean cosine of scattering, in (-1, 1): positive forward
+
+  bool operator==(const FogOptions& other) const {
+    return density == other.density && (albedo == other.albedo).all() && anisotropy == other.anisotropy;
+  }
+};
+
 struct EnvironmentOptions {
   /// A soft sky (light/soft_sky.h), where no light of the scene shows it. The others are then not set.
   bool automatic = false;
@@ -16,12 +27,14 @@ struct EnvironmentOptions {
   std::optional<SkyOptions> sky;     ///< a clear sky with a sun; file and constant are then not set
   float rotation_degrees = 0.0f;     ///< about +y, counter-clockwise seen from above
   float scale = 1.0f;
+  std::optional<FogOptions> fog;
 
   bool none() const { return !automatic && !sky && file.empty() && (constant == 0.0f).all(); }
 
   bool operator==(const EnvironmentOptions& other) const {
     return automatic == other.automatic && file == other.file && (constant == other.constant).all() &&
-           sky == other.sky && rotation_degrees == other.rotation_degrees && scale == other.scale;
+           sky == other.sky && rotation_degrees == other.rotation_degrees && scale == other.scale &&
+           fog == other.fog;
   }
 };
 

@@ -20,19 +20,22 @@ struct RayCounts {
   std::uint64_t camera = 0;
   std::uint64_t bounce = 0;
   std::uint64_t shadow = 0;
-  double seconds = 0.0;  ///< of tracing, summed over threads
+  double seconds = 0.0;           ///< of tracing, summed over threads
+  std::uint64_t ended_walks = 0;  ///< paths that ended after kMaxWalk events in a medium
 
   void add(const RayCounts& other) {
     camera += other.camera;
     bounce += other.bounce;
     shadow += other.shadow;
     seconds += other.seconds;
+    ended_walks += other.ended_walks;
   }
   void subtract(const RayCounts& other) {
     camera -= other.camera;
     bounce -= other.bounce;
     shadow -= other.shadow;
     seconds -= other.seconds;
+    ended_walks -= other.ended_walks;
   }
 };
 

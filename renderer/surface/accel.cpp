@@ -362,9 +362,11 @@ void Accel::transmittance(std::span<const Ray> rays, std::span<Color> result) co
     if (state_->moving) context.query.occluded(valid, state_->moving, packet);
     for (unsigned i = 0; i < count; ++i) {
       const bool blocked = packet.tfar[i] < 0.0f;
-      result[first + i] = blocked              ? Color(0.0f, 0.0f, 0.0f)
-                          : state_->any_filter ? context.lanes[i].passed(*coverage_, rays[first + i].t_max)
-                                               : Color(1.0f, 1.0f, 1.0f);
+      const Ray& ray = rays[first + i];
+      if (!state_->any_filter && ray.inside) context.lanes[i].start(ray);
+      result[first + i] = blocked                            ? Color(0.0f, 0.0f, 0.0f)
+                          : state_->any_filter || ray.inside ? context.lanes[i].passed(*coverage_, ray.t_max)
+                                                             : Color(1.0f, 1.0f, 1.0f);
     }
   });
 }

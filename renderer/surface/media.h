@@ -4,11 +4,13 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "renderer/bsdf/bsdf.h"
 #include "renderer/medium/scattering_medium.h"
+#include "renderer/settings/environment_options.h"
 #include "scene/nested_volumes.h"
 
 namespace gatelight::renderer {
@@ -48,9 +50,12 @@ struct Medium {
 class Media {
  public:
   Media() = default;
-  /// `nested`: SceneRequirements::nested_volumes. Otherwise none is searched. `unrefracted_glass`:
-  /// GlassShadows::straight.
-  Media(const scene::Scene& scene, bool nested, bool unrefracted_glass);
+  /// `nested`: SceneRequirements::nested_volumes. Otherwise none is searched, unless there is fog around
+  /// them. `unrefracted_glass`: GlassShadows::straight.
+  Media(const scene::Scene& scene, bool nested, bool unrefracted_glass,
+        const std::optional<FogOptions>& fog = {});
+  Media(const Media&) = delete;
+  Media& operator=(const Media&) = delete;
 
   /// About bodies that should scatter and have holes; empty where there are none.
   const std::string& warning() const { return warning_; }
@@ -78,6 +83,7 @@ class Media {
 
  private:
   std::vector<ScatteringMedium> insides_;  ///< by material
+  ScatteringMedium fog_;
   std::string warning_;
   std::vector<std::uint32_t> of_instance_;
   std::vector<Medium> media_;  ///< by volume

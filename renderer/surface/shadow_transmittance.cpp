@@ -8,6 +8,7 @@ namespace gatelight::renderer {
 
 void ShadowTransmittance::start(const Ray& ray) {
   seed = ray.seed;
+  origin_ = ray.origin;
   direction_ = ray.direction;
   transmittance_ = Color::Ones();
   if (absorbed_) {
@@ -46,7 +47,11 @@ Color ShadowTransmittance::passed(const Coverage& coverage, float distance) {
   const ScatteringMedium* const start = boundary_count_ == 0 ? start_ : nullptr;
   if (!absorbed_ && !start) return transmittance_ * nested;
   Color all = depth_, inside = inside_;
-  if (start) inside += start->extinction;
+  if (start && start->box) {
+    all += start->extinction * start->within(origin_, direction_, distance).length();
+  } else if (start) {
+    inside += start->extinction;
+  }
   if (distance < kInfinity) all += inside.max(0.0f) * distance;
   return transmittance_ * nested * (-all.max(0.0f)).exp();
 }
@@ -68,17 +73,22 @@ Color ShadowTransmittance::passed(const Coverage& coverage, float distance) {
   const auto extinction = [](const ScatteringMedium* inside) {
     return inside ? inside->extinction : Color(Color::Zero());
   };
-  Color light = Color::Ones(), absorption = Color::Zero(), here = extinction(media.of(in.strongest()).inside);
+  const ScatteringMedium* inside = media.of(in.strongest()).inside;
+  Color light = Color::Ones(), absorption = Color::Zero(), here = extinction(inside);
   float at = 0.0f;
+  const auto end_at = [&](float t) {
+    absorption += here * (inside && inside->box ? inside->within(origin_, direction_, t).after(at) : t - at);
+  };
   for (const Boundary& b : all) {
     const Passage passage = coverage.pass(b.hit(), direction_, in);
     if (at == 0.0f && b.volume == scene::kNoVolume && !b.front) here = -passage.absorption;
-    absorption += here * (b.t - at);
+    end_at(b.t);
     at = b.t;
     light *= passage.transmittance;
-    here = extinction(cross(media, in, b.volume, b.front, coverage.material_of(b.instance)));
+    inside = cross(media, in, b.volume, b.front, coverage.material_of(b.instance));
+    here = extinction(inside);
   }
-  if (distance < kInfinity) absorption += here * (distance - at);
+  if (distance < kInfinity || (inside && inside->box)) end_at(distance);
   return light * (-absorption).exp();
 }
 

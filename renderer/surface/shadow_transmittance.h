@@ -36,6 +36,7 @@ class ShadowTransmittance {
 
   Color through_boundaries(const Coverage& coverage, float distance);
 
+  Vec3 origin_ = Vec3::Zero();
   Vec3 direction_ = Vec3::Zero();  ///< in world space; Embree's is in the space of the instance
   Color transmittance_{1.0f, 1.0f, 1.0f};
   /// Optical depth of the media along the ray: up to the ends that were met, minus that before their

@@ -28,10 +28,25 @@ inline void record_guide(PathState& path, const SurfaceInteraction& m, FirstHit&
   path.sees_through = is_mirror_or_clear(m.surface.material);
 }
 
-/// Call it where a medium has scattered a path that has met a surface: behind mirrors and clear glass, that
-/// surface becomes the guide, with the colour of the medium.
-inline void record_medium(PathState& path, const Color& color, FirstHit& first) {
-  if (!path.sees_through || path.surfaces == 0) return;
+/// The hit of a camera's ray as if no medium scattered it on its way.
+inline FirstHit unscattered_hit(const PathContext& context, const PathState& path, const Ray& ray,
+                                const Hit& hit) {
+  if (!path.is_unscattered() || !hit || path.looks_through(context, hit)) return {};
+  const SurfaceInteraction m(context.world, ray, hit, path.cone.width + path.cone.spread * hit.t,
+                             texture_level_number(path.seed));
+  return first_hit(hit, m.surface, context.world.scene.origin);
+}
+
+/// Call it where a medium has scattered a path: behind mirrors and clear glass, the last surface becomes the
+/// guide, with the colour of the medium. In front of all surfaces, `unscattered` is that of the ray without
+/// the event.
+inline void record_medium(PathState& path, const Color& color, const FirstHit& unscattered, FirstHit& first) {
+  if (!path.sees_through) return;
+  if (path.surfaces == 0) {
+    first = unscattered;
+    first.albedo = color;
+    first.guide.hit = true;
+  }
   first.guide.surface = -1;  // keeps its albedo
   first.guide.albedo = first.guide.tint * color;
   path.sees_through = false;
@@ -39,7 +54,7 @@ inline void record_medium(PathState& path, const Color& color, FirstHit& first) 
 
 /// Sets the albedo of the path's current surface, from its BSDF.
 inline void set_albedo(const PathState& path, const Color& albedo, FirstHit& first) {
-  if (path.surfaces == 0) first.albedo = albedo;
+  if (path.is_unscattered()) first.albedo = albedo;
   if (path.surfaces == first.guide.surface) first.guide.albedo = first.guide.tint * albedo;
 }
 

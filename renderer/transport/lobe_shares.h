@@ -2,18 +2,13 @@
 // The shares of the diffuse lobes in the results of shading, for the render passes.
 
 #include "renderer/film/render_passes.h"
-#include "renderer/shading/surface_block.h"
+#include "renderer/transport/path_state.h"
 
 namespace gatelight::renderer {
 
 /// Shading::separate_wide() with this roughness separates the diffuse lobes: the diffuse base on both sides
 /// and sheen. No microfacets are as wide.
 inline constexpr float kOnlyDiffuse = 2.0f;
-
-/// Whether a lane's light sample lights the surface from behind.
-inline bool light_is_behind(const ShadingBlock& p, int lane) {
-  return lane_vector(p.light_direction, lane).dot(lane_vector(p.geometric_normal, lane)) < 0.0f;
-}
 
 inline LobeShare::Rest rest_of(bool transmitted) {
   return transmitted ? LobeShare::Rest::transmission : LobeShare::Rest::glossy;

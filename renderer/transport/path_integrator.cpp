@@ -10,6 +10,7 @@ namespace gatelight::renderer {
   const bool first_event = path.depth == 0;
   const LobeShare volume{.rest = LobeShare::Rest::volume};
   const Color carried = path.carried();
+  const FirstHit unscattered = first ? unscattered_hit(context_, path, ray, hit) : FirstHit{};
   const MediumWalk walk = walk_medium(
       context_, path, ray, hit, options_.max_depth, counts,
       [&](const Color& light, const Ray& shadow, std::uint32_t number, int event) {
@@ -24,7 +25,7 @@ namespace gatelight::renderer {
         pending.lobes = first_event ? volume : scratch.passes.first_scattering(path.index).scattered;
       });
   if (walk.events > 0) {
-    if (first) record_medium(path, path.inside->color, *first);
+    if (first) record_medium(path, path.inside->color, unscattered, *first);
     if (scratch.passes.any() && first_event)
       scratch.passes.first_scattering(path.index) = {volume, volume, true, walk.events > 1};
   }
@@ -33,7 +34,7 @@ namespace gatelight::renderer {
 
 PathBlock* PathIntegrator::scatter(std::uint32_t number, PathState& path, Ray& ray, Hit& hit, Color& radiance,
                                    FirstHit* first, RayCounts& counts, Scratch& scratch) const {
-  if (path.inside && path.inside->scatters() && !walk(path, ray, hit, first, counts, scratch)) return nullptr;
+  if (path.inside && path.inside->scatters && !walk(path, ray, hit, first, counts, scratch)) return nullptr;
   const LightGroups& groups = context_.world.light_groups;
   // `group` returns the light group of the emission.
   const auto add = [&](const Emission& emission, bool background, const auto& group) {
@@ -50,7 +51,7 @@ PathBlock* PathIntegrator::scatter(std::uint32_t number, PathState& path, Ray& r
     return nullptr;
   }
   SurfaceInteraction m = path.intersect(context_, ray, hit, options_.max_depth);
-  if (first && path.surfaces == 0) *first = first_hit(hit, m.surface, context_.world.scene.origin);
+  if (first && path.is_unscattered()) *first = first_hit(hit, m.surface, context_.world.scene.origin);
   if (first) record_guide(path, m, *first);
   add(m.emission, false, [&] { return groups.of_instance(hit.instance); });
   if (m.ends) return nullptr;
@@ -59,16 +60,17 @@ PathBlock* PathIntegrator::scatter(std::uint32_t number, PathState& path, Ray& r
   return &block;
 }
 
-void PathIntegrator::add_light(const PathState& path, const ShadingBlock& points, int lane,
+void PathIntegrator::add_light(const PathState& path, const PathBlock& block, int lane,
                                Scratch& scratch) const {
+  const ShadingBlock& points = block.points;
   const Color direct = lane_color(points.direct, lane);
   if (!(direct > 0.0f).any()) return;
-  const Color contribution =
-      path.carried() * direct * path.transmittance(context_, points.shadow_length[lane]);
+  const auto [shadow, passed] =
+      path.shadow_ray(context_, block, lane, scratch.hits[block.path[lane]].instance);
+  const Color contribution = path.carried() * direct * passed;
   const float weight = path.shadow_weight(contribution.maxCoeff(), path.contribution_threshold);
   if (!(weight > 0.0f)) return;
-  scratch.shadow_rays.push_back(shadow_ray_at(points, lane));
-  scratch.shadow_rays.back().inside = path.shadow_inside(context_);
+  scratch.shadow_rays.push_back(shadow);
   PendingLight& pending =
       scratch.pending.emplace_back(PendingLight{contribution * weight, path.index, points.light[lane]});
   if (!scratch.passes.any()) return;
@@ -84,7 +86,7 @@ void PathIntegrator::shade(PathBlock& block, std::span<FirstHit> first_hits, Scr
     const std::uint32_t number = block.path[lane];
     PathState& path = scratch.paths[scratch.path_of[number]];
     if (!first_hits.empty()) set_albedo(path, lane_color(points.albedo, lane), first_hits[path.index]);
-    add_light(path, points, lane, scratch);
+    add_light(path, block, lane, scratch);
     if (!points.alive[lane]) continue;
     const DirectionSample sampled = direction_sample_at(block, lane);
     if (scratch.passes.any() && path.depth == 0 && !sampled.through_pane) {

@@ -54,7 +54,7 @@ class PathIntegrator {
   /// Walks through the medium around a path. False: the path ends there.
   bool walk(PathState& path, Ray& ray, Hit& hit, FirstHit* first, RayCounts& counts, Scratch& scratch) const;
   /// Adds the light sample of a lane, unless it is black or roulette ends it.
-  void add_light(const PathState& path, const ShadingBlock& points, int lane, Scratch& scratch) const;
+  void add_light(const PathState& path, const PathBlock& block, int lane, Scratch& scratch) const;
   void shade(PathBlock& block, std::span<FirstHit> first_hits, Scratch& scratch) const;
 
   PathContext context_;

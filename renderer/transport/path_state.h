@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <utility>
 
 #include "renderer/film/camera_sample.h"
 #include "renderer/sampling/wavelength.h"
@@ -85,6 +86,20 @@ struct DirectionSample : BsdfSample {
   float survival = 1.0f;      ///< probability in Russian roulette; the weight is divided by it
 };
 
+/// The shadow ray of a lane's light sample.
+inline Ray shadow_ray_at(const ShadingBlock& p, int lane) {
+  return {.origin = lane_vector(p.shadow_origin, lane),
+          .t_max = p.shadow_length[lane],
+          .direction = lane_vector(p.light_direction, lane),
+          .seed = p.shadow_seed[lane],
+          .time = p.time[lane]};
+}
+
+/// Whether a lane's light sample lights the surface from behind.
+inline bool light_is_behind(const ShadingBlock& p, int lane) {
+  return lane_vector(p.light_direction, lane).dot(lane_vector(p.geometric_normal, lane)) < 0.0f;
+}
+
 struct PathState {
   RayCone cone;
   Color throughput{1.0f, 1.0f, 1.0f};        ///< without radiance_scale
@@ -124,6 +139,9 @@ struct PathState {
   /// The same factor with the losses.
   Color carried() const { return throughput * spectrum * scale(); }
 
+  /// Whether the path has met neither a surface nor a scattering event of a medium.
+  bool is_unscattered() const { return surfaces == 0 && depth == 0; }
+
   /// Whether the hit is ignored: the camera looks through a shadow catcher.
   bool looks_through(const PathContext& context, const Hit& hit) const {
     return surfaces == 0 && context.world.catches(hit.instance);
@@ -147,7 +165,7 @@ struct PathState {
   SurfaceInteraction intersect(const PathContext& context, const Ray& ray, const Hit& hit, int max_depth) {
     SurfaceInteraction m(context.world, ray, hit, cone.width + cone.spread * hit.t,
                          texture_level_number(seed));
-    if (inside && !inside->scatters()) {
+    if (inside && !inside->scatters) {
       m.passed = (-inside->extinction * hit.t).exp();
       throughput *= m.passed;
     }
@@ -200,17 +218,20 @@ struct PathState {
     block.crossing[static_cast<std::size_t>(lane)] = {m.volume, m.unrefracted, m.same_medium};
   }
 
-  /// Transmittance of the medium around the path for a light sample at this distance. One where shadow rays
-  /// pass glass with an inside: these apply it where they leave the medium.
-  Color transmittance(const PathContext& context, float distance) const {
-    if (!inside || !(distance < kInfinity) || context.world.coverage.unrefracted_glass())
-      return Color::Ones();
-    return (-inside->extinction * distance).exp();
-  }
-
-  /// Ray::inside of a shadow ray from a surface in a medium that scatters, where transmittance() is one.
-  const ScatteringMedium* shadow_inside(const PathContext& context) const {
-    return inside && inside->scatters() && context.world.coverage.unrefracted_glass() ? inside : nullptr;
+  /// The shadow ray of a lane's light sample, and the transmittance of the medium in which it starts. The
+  /// transmittance is one where the ray may leave the medium before it arrives: in fog, and where shadow rays
+  /// pass glass with an inside. Then Ray::inside makes the ray apply it.
+  std::pair<Ray, Color> shadow_ray(const PathContext& context, const PathBlock& block, int lane,
+                                   std::uint32_t instance) const {
+    Ray ray = shadow_ray_at(block.points, lane);
+    const ScatteringMedium* const medium = medium_towards_light(context, block, lane, instance);
+    if (!medium) return {ray, Color::Ones()};
+    if (medium->box || context.world.coverage.unrefracted_glass()) {
+      if (medium->scatters) ray.inside = medium;
+      return {ray, Color::Ones()};
+    }
+    if (!(ray.t_max < kInfinity)) return {ray, Color::Ones()};
+    return {ray, (-medium->extinction * ray.t_max).exp()};
   }
 
   /// Russian roulette of a light sample whose contribution has this largest channel: the factor to its
@@ -279,6 +300,22 @@ struct PathState {
     material.dispersion = 0.0f;
   }
 
+  /// The medium on the side of a lane's surface where its light sample is.
+  const ScatteringMedium* medium_towards_light(const PathContext& context, const PathBlock& block, int lane,
+                                               std::uint32_t instance) const {
+    if (block.scalar.empty() || !changes_medium(block, lane) || !light_is_behind(block.points, lane))
+      return inside;
+    MediumStack there = interior;
+    return cross(context.world.media, there, block.crossing[static_cast<std::size_t>(lane)].volume,
+                 block.front[lane], context.world.coverage.material_of(instance));
+  }
+
+  /// Whether a path that passes a lane's surface enters or leaves a medium there.
+  static bool changes_medium(const PathBlock& block, int lane) {
+    const PathBlock::Crossing& m = block.crossing[static_cast<std::size_t>(lane)];
+    return m.unrefracted || m.same_medium || !block.scalar[static_cast<std::size_t>(lane)].thin_walled;
+  }
+
   /// The path leaves a surface of the scalar code, perhaps into another medium. True: light samples do not
   /// compete with the light that the next ray finds.
   bool leave(const PathContext& context, const PathBlock& block, int lane, const DirectionSample& sampled,
@@ -286,7 +323,7 @@ struct PathState {
     const ScalarLane& scalar = block.scalar[static_cast<std::size_t>(lane)];
     const PathBlock::Crossing& m = block.crossing[static_cast<std::size_t>(lane)];
     radiance_scale *= static_cast<double>(scalar.radiance_scale);
-    if (sampled.transmitted && (m.unrefracted || m.same_medium || !scalar.thin_walled)) {
+    if (sampled.transmitted && changes_medium(block, lane)) {
       inside = cross(context.world.media, interior, m.volume, block.front[lane],
                      context.world.coverage.material_of(instance));
     }
@@ -323,15 +360,6 @@ inline DirectionSample direction_sample_at(const SurfaceBlock& block, int lane) 
   sampled.through_pane = sampled.delta && sampled.transmitted && thin;
   sampled.survival = p.survival[lane];
   return sampled;
-}
-
-/// The shadow ray of a lane's light sample.
-inline Ray shadow_ray_at(const ShadingBlock& p, int lane) {
-  return {.origin = lane_vector(p.shadow_origin, lane),
-          .t_max = p.shadow_length[lane],
-          .direction = lane_vector(p.light_direction, lane),
-          .seed = p.shadow_seed[lane],
-          .time = p.time[lane]};
 }
 
 }  // namespace gatelight::renderer

@@ -95,5 +95,10 @@ function makeSkyControls(scene) {
   slider(parent, "Scaled", {min: -6, max: 6, step: 0.1, value: Math.log2(Number(flagOf(scene, "environment-scale", 1))), text: x => `${signed(x)} EV`, changed: value => {
     changes.send({"environment-scale": String(2 ** value)});
   }});
+  const noFog = -12;  // the logarithm of its density
+  const [density, ...scattering] = flagOf(scene, "fog", "none").split(",");
+  slider(parent, "Fog", {min: noFog, max: 4, step: 0.25, value: density === "none" ? noFog : Math.log2(Number(density)), text: x => x > noFog ? `${(2 ** x).toPrecision(2)} /m` : "none", changed: value => {
+    changes.send({fog: value > noFog ? [2 ** value, ...scattering].join(",") : null});
+  }});
   show();
 }

@@ -11,7 +11,9 @@
 
 #include "renderer/medium/phase.h"
 #include "renderer/medium/scattering_medium.h"
+#include "renderer/render.h"
 #include "renderer/transport/medium_walk.h"
+#include "tests/support/picture_moments.h"
 #include "tests/support/scene_builder.h"
 #include "tests/support/statistics.h"
 
@@ -217,6 +219,54 @@ TEST(Albedo, IsTheInverseOfAHalfSpacesReflectance) {
   }
   EXPECT_LT(single_scattering_albedo(Color::Zero(), 0.0f).maxCoeff(), 1e-4f);
   EXPECT_GT(single_scattering_albedo(Color::Ones(), 0.8f).minCoeff(), 1.0f - 1e-5f);
+}
+
+/// Means of pictures of a ball that scatters, with a lamp above it, for seeds of their own.
+Moments means_of_ball(bool diffuse_door, bool absorbs_only, DirectLight direct, GlassShadows glass) {
+  SceneBuilder builder;
+  scene::Material body = SceneBuilder::clear_glass();
+  body.thickness = 1.0f;
+  body.attenuation_distance = 0.2f;
+  body.attenuation_color = Color(0.5f, 0.3f, 0.1f);
+  if (!absorbs_only) body.multiscatter_color = Color(0.9f, 0.7f, 0.5f);
+  body.roughness = 0.6f;
+  if (diffuse_door) {
+    body.transmission = 0.0f;
+    body.diffuse_transmission = 1.0f;
+  }
+  builder.sphere(builder.material(body), Vec3::Zero(), 0.5f, 24, true);
+  builder.quad(builder.material(SceneBuilder::lambert(Color::Zero(), Color::Constant(8.0f))),
+               Vec3(-0.7f, 1.5f, -0.7f), Vec3(1.4f, 0, 0), Vec3(0, 0, 1.4f));
+  RenderOptions options;
+  options.width = options.height = 12;
+  options.spp = 64;
+  options.direct = direct;
+  options.glass_shadows = glass;
+  options.camera.look_at = LookAt{Vec3(0, 0.4f, 3), Vec3::Zero(), Vec3(0, 1, 0)};
+  options.camera.fov_degrees = 18.0f;
+  Moments moments;
+  for (std::uint32_t seed = 1; seed <= 24; ++seed) {
+    options.seed = seed;
+    moments.add(testing::moments_of(Renderer(builder.scene(), options).render()).mean());
+  }
+  return moments;
+}
+
+TEST(MediumWalk, LightSamplesAndBouncesAgreeOutsideOfABody) {
+  for (const bool diffuse_door : {false, true}) {
+    for (const bool absorbs_only : {false, true}) {
+      for (const GlassShadows glass : {GlassShadows::refract, GlassShadows::straight}) {
+        const Moments both = means_of_ball(diffuse_door, absorbs_only, DirectLight::mis, glass);
+        const Moments bounces = means_of_ball(diffuse_door, absorbs_only, DirectLight::bsdf, glass);
+        const double error = std::hypot(both.standard_error(), bounces.standard_error());
+        EXPECT_LT(error, 0.04 * both.mean());
+        EXPECT_GT(testing::student_two_sided((both.mean() - bounces.mean()) / error, 46.0), 1e-4)
+            << (diffuse_door ? "diffuse" : "rough") << (absorbs_only ? ", absorbs " : ", scatters ")
+            << static_cast<int>(glass) << ": " << both.mean() << " and " << bounces.mean() << ", error "
+            << error;
+      }
+    }
+  }
 }
 
 }  // namespace
