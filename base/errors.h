@@ -28,25 +28,25 @@ enum class ErrorKind : std::uint8_t {
 
 /// An error about an option as data. Fields that do not apply are empty.
 struct ErrorParts {
-  std::string option{};    ///< its name in the table of options, "max-depth"; capitals: an argument
+  std::string option{};    ///< name in the option table, such as "max-depth"; capitals for an argument
   std::string value{};     ///< as text
-  std::string problem{};   ///< a clause, "has 5 levels"; empty: the value is not what was expected
+  std::string problem{};   ///< a clause such as "has 5 levels"; empty if the value is merely not as expected
   std::string expected{};  ///< a noun phrase, "an integer from 1 to 5"
-  std::string hint{};      ///< what did_you_mean() returns
+  std::string hint{};      ///< a suggestion, from did_you_mean()
 };
 
-/// "spp: 'x' is not an integer from 1 to 5", "stack: '1,2,3' has 3 levels, expected at most 2" or "fps: there
-/// are no frames, expected `frames` with it".
+/// Formats the parts as a sentence, such as "spp: 'x' is not an integer from 1 to 5", "stack: '1,2,3' has 3
+/// levels, expected at most 2" or "fps: there are no frames, expected `frames` with it".
 std::string sentence(const ErrorParts& parts);
 
-/// The message is one line and names the file or option, the value and what was expected. Further options are
-/// in back-ticks.
+/// The message is one line and names the file or option, the value and what was expected. Names of other
+/// options are in back-ticks.
 class Error : public std::runtime_error {
  public:
   Error(ErrorKind kind, const std::string& message) : std::runtime_error(message), kind_(kind) {}
   Error(ErrorKind kind, ErrorParts parts);
   ErrorKind kind() const { return kind_; }
-  /// Without an option where the error is about something else: a file, memory.
+  /// Empty if the error is not about an option but, for example, about a file or memory.
   const ErrorParts& parts() const { return parts_; }
 
  private:
@@ -54,7 +54,7 @@ class Error : public std::runtime_error {
   ErrorParts parts_;
 };
 
-/// An error of one kind, below a more general class.
+/// An error of one kind, derived from a more general class.
 template <ErrorKind kKind, class Base = Error>
 class ErrorOf : public Base {
  public:

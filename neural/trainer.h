@@ -25,7 +25,7 @@ class Trainer {
   /// identifies what was learned; it is any text, for example a hash of the scene. Throws OutputError.
   void save(const std::filesystem::path& path, const std::string& fingerprint) const;
   /// Throws CacheFileError, which names the difference, for a damaged file or another configuration, layout,
-  /// version or fingerprint. The trainer is unchanged then.
+  /// version or fingerprint. In that case, the trainer is unchanged.
   void load(const std::filesystem::path& path, const std::string& fingerprint);
 
   const Model& model() const { return *model_; }

@@ -1,5 +1,5 @@
 #pragma once
-// Makes pictures of one scene. An application needs no other header to render.
+// Renders pictures of one scene.
 
 #include <exception>
 #include <filesystem>
@@ -24,61 +24,61 @@ struct Progress {
   int steps = 0;
   double loss = 0.0;
   int spp_done = 0;
-  int spp = 0;                  ///< kUnlimitedSpp: time decides
-  double samples = 0.0;         ///< per pixel, with those of the pass that is under way
-  std::optional<double> error;  ///< estimated, with max_error
-  double fraction = 0.0;        ///< how much of the phase is done, in [0, 1]
+  int spp = 0;                  ///< kUnlimitedSpp: another limit decides
+  double samples = 0.0;         ///< per pixel, including the current pass
+  std::optional<double> error;  ///< estimated error, if max_error is set
+  double fraction = 0.0;        ///< finished part of the phase, in [0, 1]
   double seconds = 0.0;         ///< wall time since scouting or rendering started
 };
 
-/// Ends a picture that Callbacks::abandon gave up.
+/// Thrown after Callbacks::abandon returned true.
 class Abandoned : public std::exception {
  public:
   const char* what() const noexcept override { return "the picture was given up"; }
 };
 
 struct Callbacks {
-  /// A worker thread calls it about ten times a second at most.
+  /// Called by a worker thread, at most about ten times per second.
   std::function<void(const Progress&)> progress;
-  /// Worker threads call it between tiles, several at once. When it returns true, the current pass is
+  /// Called by worker threads between tiles, also concurrently. When it returns true, the current pass is
   /// finished and rendering stops.
   std::function<bool()> stop;
-  /// Like `stop`, for a picture that is not wanted any more. When it returns true, render() and
-  /// render_frame() end as soon as they can, with Abandoned. The cache of frames keeps what it has learned.
+  /// Like `stop`, for a picture that is no longer wanted. When it returns true, render() and render_frame()
+  /// throw Abandoned as soon as possible. The cache of frames keeps its training.
   std::function<bool()> abandon;
   /// Called after every pass. When it returns true, `snapshot` receives the picture so far. Only spp and
   /// render_seconds of the statistics are up to date at that time.
   std::function<bool()> snapshot_wanted;
   std::function<void(const Picture&)> snapshot;
-  /// A checkpoint or the cache file could not be written, and the render goes on. `again` says whether the
-  /// write will be tried again. Where this callback is not set, the exception ends the render.
+  /// Called when a checkpoint or the cache file could not be written; rendering continues. `again` says
+  /// whether the write will be retried. Without this callback, the exception ends the render.
   std::function<void(const std::exception_ptr& error, bool again)> output_failed;
 
-  /// Throws Abandoned where the picture is given up.
+  /// Throws Abandoned if `abandon` returns true.
   void check_abandoned() const {
     if (abandon && abandon()) throw Abandoned();
   }
 };
 
-/// The points of one training, or of one plain rendering, at which pictures are made. They are ascending and
-/// not empty. They replace train_steps or spp of RenderOptions.
+/// The training steps or samples per pixel at which one run makes pictures. They are ascending, not empty,
+/// and replace train_steps or spp of RenderOptions.
 struct Series {
-  std::vector<int> train_steps;  ///< nao and nrc: beyond those of a loaded cache; 0 is untrained
+  std::vector<int> train_steps;  ///< nao and nrc: in addition to those of a loaded cache; 0 means untrained
   std::vector<int> spp;          ///< path and ao: samples per pixel
 };
 
-/// `statistics` are those of a run that ends at this point. For nao and nrc they hold the training up to the
-/// point, with only the time of training, and the rendering of this picture. For path and ao they hold the
-/// rendering up to the point.
+/// `statistics` are those of a run that ends at this point. For nao and nrc, they cover the training up to
+/// this point, without the time of earlier pictures, and the rendering of this picture. For path and ao, they
+/// cover the rendering up to this point.
 using SeriesPicture =
     std::function<void(int point, const Picture& picture, const RenderStatistics& statistics)>;
 
-/// What a file of Renderer::write_frame() says of itself, or another cache file.
+/// The status in a file of Renderer::write_frame() or in another cache file.
 struct FrameStatus {
-  std::optional<int> frame;       ///< the last one, whose light it has
-  double layout_seconds = 0.0;    ///< time of the scene that the cache belongs to
+  std::optional<int> frame;       ///< the last rendered one
+  double layout_seconds = 0.0;    ///< time of the scene when the cache was laid out
   std::optional<float> exposure;  ///< of displayed frames, in stops
-  bool of_animation = false;      ///< else the scene is that of the file's nodes
+  bool of_animation = false;      ///< else the scene is the static pose
 };
 
 /// Throws CacheFileError.
@@ -91,69 +91,73 @@ class Ranks;         // distributed/ranks.h
 /// pictures from it.
 class Renderer {
  public:
-  /// The scene must outlive the renderer. Throws OutOfMemory, Unavailable, BadOption, or InputError
-  /// that names the file when the environment cannot be read.
+  /// The scene must outlive the renderer. Throws OutOfMemory, Unavailable, BadOption, or, if the environment
+  /// cannot be read, InputError with the name of the file.
   Renderer(const scene::Scene& scene, const RenderOptions& options);
-  /// One of several processes, which must outlive the renderer, that make one picture together. Each holds
-  /// the scene, and all call the same functions with the same options; threads and memory limits may differ.
+  /// For one of several processes that make one picture together. `ranks` must outlive the renderer. Each
+  /// process holds the scene, and all call the same functions with the same options; threads and memory
+  /// limits may differ.
   Renderer(const scene::Scene& scene, const RenderOptions& options, Ranks& ranks);
   ~Renderer();
   Renderer(Renderer&&) noexcept;
 
-  /// The pictures from now on have another view; nothing is built again. A cache is trained anew for it.
-  /// Throws BadOption as the constructor does, with the view unchanged.
+  /// Changes the view of all later pictures. Nothing is rebuilt; the cache is trained again for the new view.
+  /// Throws BadOption as the constructor does; the view is then unchanged.
   void set_camera(const CameraOptions& camera);
 
-  /// Whether a soft sky lights the present view; nothing where no view or time of the scene can change that.
+  /// Whether a soft sky lights the current view; nullopt if this cannot change with the view or the time.
   std::optional<bool> soft_sky() const;
-  /// The pictures after the next call that changes view, time or options all have the soft sky, or all have
-  /// none; nothing: each view chooses for itself, by what it shows, as a new renderer does.
+  /// Decides whether all pictures after the next change of view, time or options have the soft sky. With
+  /// nullopt, each view decides for itself, as in a new renderer.
   void keep_soft_sky(std::optional<bool> sky);
 
-  /// The pictures from now on have other options, with as many threads as before. What does not depend on the
-  /// difference is not built again; frames go on with their cache, whose options must be the same. Throws as
-  /// the constructor does; the renderer is then to be given other options before it is used.
+  /// Changes the options of all later pictures, except the number of threads. Rebuilds only what the change
+  /// affects. Frames keep their cache, whose options must not change. Throws as the constructor does; in that
+  /// case, set valid options before using the renderer again.
   void set_options(const RenderOptions& options);
 
   // Frames of an animation: scene::SceneFile::show() changes the scene between these calls.
 
-  /// The scene shows another time. Builds what moves. Throws as the constructor does.
+  /// Call it after the scene has changed to another time. Rebuilds the moving parts. Throws as the
+  /// constructor does.
   void scene_moved(const CameraOptions& camera);
-  /// What the present view shows at the present time is to be part of the cache. Call it for some frames
-  /// before begin_frames(); without a call the present one is taken.
+  /// Includes the surfaces visible from the current view, at the current time, in the cache. Call it for some
+  /// frames before begin_frames(); without a call, only the current frame is included.
   void scout();
-  /// Begins the frames. Makes the cache that they share, or reads that of `file`, whose scene this must be
-  /// then: `seconds` is the time that the scene shows. Throws the exceptions of render().
+  /// Begins a sequence of frames. Creates the cache that they share, or reads it from `file`, which must
+  /// belong to this scene. `seconds` is the current time of the scene. Throws the exceptions of render().
   void begin_frames(double seconds, const std::filesystem::path& file = {});
-  /// Takes the light of the last frame of `file`, whose scene and view these must be, for the next one.
+  /// Continues after the last frame of `file`: reads its cache and samples. The scene and the view must be
+  /// those of that frame.
   void restore_frame(const std::filesystem::path& file);
-  /// Keeps the places of the present scene as those of a frame beside the one that is rendered next, for
-  /// Aov::motion and Aov::motion_next. Nothing is built: the renderer needs scene_moved() after it. Where
-  /// these frames are not known there is no motion.
+  /// Records the positions of the current scene as those of `frame`, a neighbour of the next rendered frame,
+  /// for Aov::motion and Aov::motion_next. Rebuilds nothing: call scene_moved() afterwards. Motion to unknown
+  /// frames is zero.
   void note_frame(int frame, const CameraOptions& camera);
-  /// Whether they are known; those of the last frames that were rendered with these layers are. Where another
-  /// process makes the layers, they need not be.
+  /// Whether the positions of `frame` are known or not needed. The last frames rendered with these layers are
+  /// known. Processes that do not write the picture need none.
   bool knows_frame(int frame) const;
-  /// The present frame, whose number keys its random numbers. It depends on scene, options and the cache
-  /// before it, which it trains further, as much as the light has changed. No checkpoint is read or written.
+  /// Renders the current frame. `frame` selects its random numbers. The picture depends on the scene, the
+  /// options and the state of the cache, which is trained further; the more the light has changed, the
+  /// longer. Checkpoints are neither read nor written.
   Picture render_frame(int frame, const Callbacks& callbacks = {});
-  /// Writes what the next frame needs of those before. Throws OutputError.
+  /// Writes the state that the next frame needs. Throws OutputError.
   void write_frame(const std::filesystem::path& path, std::optional<float> exposure) const;
 
-  /// The same scene, options and Embree ISA give the same bits for any number of threads and of ranks, unless
-  /// a time limit ends it. Where there are several ranks, rank 0 gets the picture and writes the files, and
-  /// the others get an empty picture; a stop request to one of them stops all.
+  /// Renders the picture. The same scene, options and Embree ISA give the same bits for any number of threads
+  /// and ranks, unless a time limit ends the render. With several ranks, rank 0 gets the picture and writes
+  /// the files, and the others get an empty picture; a stop request to one rank stops all.
   Picture render(const Callbacks& callbacks = {});
   /// Calls `picture` for each point, in order. The picture has the bits that render() gives with these steps
-  /// or samples. Returns false when callbacks.stop ends it before the last point; `picture` is not called for
-  /// the points that remain. Throws BadOption for points that are not a valid series, and when the options
-  /// have a time limit, max_error, checkpoints or cache_out, and with several ranks.
+  /// or samples. Returns false if callbacks.stop ends the series early; `picture` is not called for the
+  /// remaining points. Throws BadOption if the series is invalid, if the options contain a time limit,
+  /// max_error, checkpoints or cache_out, or with several ranks.
   bool render_series(const Series& series, const SeriesPicture& picture, const Callbacks& callbacks = {});
   /// Describes the cache that rendering would build. Scouts, but neither trains nor renders. Only for
   /// integrators with a cache.
   CacheReport report_cache();
-  /// Like report_cache(), but without the report of each instance and without the size of a cache that is not
-  /// scouted.
+  /// Like report_cache(), but without reports of single instances and without the size of the cache before
+  /// scouting.
   CacheStatistics set_up_cache();
   /// The integrator of the options, or the one chosen for the scene (RenderOptions::choose_integrator).
   Integrator integrator() const;

@@ -1,5 +1,5 @@
 #pragma once
-// The last steps of loading, for scenes from a file and from a program.
+// The last steps of loading, for scenes read from a file or built by a program.
 
 #include <string>
 #include <vector>
@@ -8,12 +8,12 @@
 
 namespace gatelight::scene {
 
-/// Bakes transforms (bake.h) if `bake`, separates doubled lamps, and sets Scene::bounds. Returns the
-/// materials of which culled copies were added (coincident_emitters.h).
+/// Bakes transforms (bake.h) if `bake` is true, separates coincident emitters (coincident_emitters.h), and
+/// sets Scene::bounds. Returns the materials that got a culled copy.
 std::vector<int> finish_geometry(Scene& scene, bool bake);
 
-/// Describes vertices that are too far away or not finite, by the box around them; empty where there are
-/// none. Larger coordinates are refused: the square of a triangle's area would overflow single precision.
+/// Describes vertices that are too far away or not finite by their bounding box; returns an empty string if
+/// there are none. The limit keeps the square of a triangle's area within single precision.
 std::string wrong_bounds(const Scene& scene, const Box& bounds);
 
 }  // namespace gatelight::scene

@@ -1,5 +1,5 @@
 #pragma once
-// Light measured around a luminaire: files of the IES (ANSI/IES LM-63, type C photometry).
+// Photometric measurements of luminaires: IES files (ANSI/IES LM-63, type C).
 
 #include <filesystem>
 #include <string_view>
@@ -13,18 +13,18 @@ namespace gatelight::scene {
 /// from x to y, as in the extension EXT_lights_ies.
 class IesProfile {
  public:
-  /// The text of a file. Throws InputError that says what is wrong, without the file's name.
+  /// Parses the text of a file. Throws InputError; its message does not contain the file's name.
   explicit IesProfile(std::string_view text);
 
-  /// The intensity in a direction, which need not be unit, as a share of the greatest. Linear between angles;
-  /// 0 beyond the measured ones.
+  /// The intensity in a direction of any length, relative to the greatest intensity. Interpolated linearly
+  /// between angles; 0 outside the measured ones.
   float relative(const Vec3& direction) const;
-  /// In candela.
+  /// The greatest intensity in candela.
   double greatest() const { return greatest_; }
-  /// The greatest angle to the aim at which there is light, in radians.
+  /// The greatest angle from the axis with light, in radians.
   float extent() const { return extent_; }
-  /// relative() at steps of a quarter of a degree from the aim and of 2.5 degrees around it, which hold the
-  /// angles of usual files. Row after row; one column where it is the same all around.
+  /// relative() every 0.25 degrees from the axis and every 2.5 degrees around it, which includes the angles
+  /// of typical files. Row-major; one column if the profile is rotationally symmetric.
   const std::vector<float>& values() const { return values_; }
 
  private:
@@ -34,7 +34,7 @@ class IesProfile {
   float extent_ = 0.0f;
 };
 
-/// Throws InputError that names the file.
+/// Throws InputError; its message names the file.
 IesProfile read_ies_profile(const std::filesystem::path& path);
 
 }  // namespace gatelight::scene

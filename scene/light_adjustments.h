@@ -8,9 +8,9 @@
 
 namespace gatelight::scene {
 
-/// A factor for the lights of a name.
+/// A factor for all lights with a matching name.
 struct LightAdjustment {
-  /// Name of a punctual light or an emissive material. A '*' at its end stands for any further letters.
+  /// Name of a punctual light or an emissive material. A '*' at its end matches any ending.
   std::string name;
   Color factor{1.0f, 1.0f, 1.0f};  ///< linear; not negative; zero switches off
 
@@ -19,9 +19,10 @@ struct LightAdjustment {
   }
 };
 
-/// Multiplies the intensity of punctual lights and the emission of materials. Where several adjustments name
-/// a light, the last one counts: {"*", 0}, {"lamp", 1} switches off all but the lamp. Throws InputError for a
-/// name that no light and no emissive material has (of a file with animations: no material), and where a product is not finite.
+/// Multiplies the intensity of punctual lights and the emission of materials. If several adjustments match a
+/// light, only the last one applies: {"*", 0}, {"lamp", 1} switches off all but the lamp. Throws InputError
+/// if a product is not finite, or if a name matches no light and no emissive material. In a file with
+/// animations, other materials match too.
 void adjust_lights(Scene& scene, const std::vector<LightAdjustment>& adjustments);
 
 }  // namespace gatelight::scene

@@ -9,15 +9,15 @@
 namespace gatelight::scene {
 
 struct LightProfile {
-  std::string name;  ///< name of point and spot lights; a '*' at its end stands for any further letters
+  std::string name;  ///< name of point and spot lights; a '*' at its end matches any ending
   std::string file;
 
   bool operator==(const LightProfile&) const = default;
 };
 
-/// The lights become point lights. Their intensity is kept as the greatest one and varies as the profile's.
-/// Where several profiles name a light, the last one counts. Throws InputError for files that are no
-/// profiles, and for a name that no point or spot light has.
+/// Turns the lights into point lights. Their intensity becomes the maximum, and the profile scales it in
+/// other directions. If several profiles match a light, only the last one applies. Throws InputError if a
+/// file is not a valid profile, or if a name matches no point or spot light.
 void give_profiles(Scene& scene, const std::vector<LightProfile>& profiles);
 
 }  // namespace gatelight::scene

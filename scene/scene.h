@@ -24,7 +24,7 @@ struct Image {
   int height = 0;
   int channels = 0;
   std::vector<std::uint8_t> pixels;           ///< width * height * channels values
-  std::vector<std::uint16_t> pixels_16 = {};  ///< in place of `pixels` for a normal map of 16 bits
+  std::vector<std::uint16_t> pixels_16 = {};  ///< used instead of `pixels` by 16-bit normal maps
 };
 
 enum class Wrap : std::uint8_t { repeat, mirrored_repeat, clamp_to_edge };
@@ -48,7 +48,7 @@ struct TextureSlot {
 
 enum class AlphaMode : std::uint8_t { opaque, mask, blend };
 
-/// The metallic-roughness material of glTF 2.0, with the extensions that the members' comments name. Each
+/// The metallic-roughness material of glTF 2.0, with the extensions named in the members' comments. Each
 /// factor is multiplied by its texture.
 struct Material {
   std::string name;
@@ -81,9 +81,9 @@ struct Material {
   float thickness = 0.0f;                     ///< KHR_materials_volume; 0 is thin-walled
   float attenuation_distance = kInfinity;     ///< KHR_materials_volume, metres
   Color attenuation_color{1.0f, 1.0f, 1.0f};  ///< KHR_materials_volume
-  /// KHR_materials_volume_scatter: the diffuse reflectance of a half space of the inside.
+  /// KHR_materials_volume_scatter: diffuse reflectance of a half space filled with the interior medium.
   Color multiscatter_color{0.0f, 0.0f, 0.0f};
-  float scatter_anisotropy = 0.0f;   ///< in (-1, 1): the mean cosine of a scattering event inside
+  float scatter_anisotropy = 0.0f;   ///< in (-1, 1): mean cosine of scattering in the interior
   float dispersion = 0.0f;           ///< KHR_materials_dispersion: 20 over the Abbe number
   float anisotropy = 0.0f;           ///< KHR_materials_anisotropy
   float anisotropy_rotation = 0.0f;  ///< radians, counter-clockwise from the tangent
@@ -113,12 +113,12 @@ struct Material {
   bool transmits() const { return transmission > 0.0f || diffuse_transmission > 0.0f; }
   /// Whether light enters an interior rather than passing an infinitely thin sheet.
   bool has_volume() const { return transmits() && thickness > 0.0f; }
-  /// Whether its inside scatters light.
+  /// Whether its interior scatters light.
   bool scatters() const {
     return has_volume() && attenuation_distance < kInfinity && (multiscatter_color > 0.0f).any() &&
            (attenuation_color < 1.0f).any();
   }
-  /// Whether it refracts colours by different angles. A thin sheet does not refract.
+  /// Whether it refracts colours at different angles. A thin sheet does not refract.
   bool disperses() const { return dispersion > 0.0f && transmission > 0.0f && thickness > 0.0f; }
 };
 
@@ -128,7 +128,7 @@ struct Material {
 struct Mesh {
   std::string name;
   int material = -1;  ///< index into Scene::materials, always valid after loading
-  /// The loader's number of a mesh whose vertices change with the time; else -1.
+  /// The loader's index of a mesh whose vertices change over time; else -1.
   int deforming = -1;
   PaddedVector<Vec3> positions;
   std::vector<Vec3> normals;   ///< unit; empty means flat: the geometric normal of each triangle
@@ -143,17 +143,17 @@ struct Mesh {
 /// A mesh in the world. Instances that share a mesh become Embree instances. A mesh with one instance holds
 /// world-space vertices, and that instance has the identity transform (scene/bake.h).
 struct Instance {
-  std::string name;  ///< of the node, else of the mesh, else "node N", by its number in the file
+  std::string name;  ///< of the node, else of the mesh, else "node N" with its index in the file
   int mesh = -1;
   Affine transform = Affine::Identity();  ///< mesh to world
   bool baked = false;                     ///< the mesh is in world space and no other instance uses it
-  bool moves = false;                     ///< its transform or its vertices change with the time; never baked
+  bool moves = false;                     ///< its transform or vertices change over time; never baked
   bool hidden = false;                    ///< invisible at this time
   bool swaps_handedness = false;          ///< determinant < 0: front faces are clockwise in the mesh
-  /// The instances of one placed glTF mesh, one for each of its primitives, have the same number. Numbers
-  /// grow along the walk through the nodes.
+  /// The same number for all instances of one placed glTF mesh (one for each of its primitives). Numbers
+  /// increase in the order in which nodes are visited.
   int placement = -1;
-  /// Where bodies of glass or liquid overlap, the one with the largest priority fills the space
+  /// Where dielectric bodies overlap, the one with the highest priority fills the space
   /// (scene/nested_volumes.h).
   float dielectric_priority = 0.0f;
 };
@@ -171,17 +171,17 @@ struct PunctualLight {
   float range = kInfinity;            ///< metres; the extension's window function is 0 beyond it
   float cos_inner = 1.0f;             ///< spot: cosine of the inner cone angle
   float cos_outer = 0.70710678f;      ///< spot: cosine of the outer cone angle
-  /// Only for a point light, whose intensity is then that of the brightest direction. The profile aims along
-  /// `direction`, with its x along `side` (world, unit, perpendicular).
+  /// Only for point lights; `intensity` is then that of the brightest direction. `direction` is the axis of
+  /// the profile and `side` its x axis (world, unit, perpendicular).
   std::shared_ptr<const IesProfile> profile;
   Vec3 side{1.0f, 0.0f, 0.0f};
 };
 
-/// EXT_lights_image_based: light from infinitely far away, as the six sides of a cube.
+/// EXT_lights_image_based: infinitely distant light, as the six faces of a cube map.
 struct ImageBasedLight {
   std::string name;
-  /// +x, -x, +y, -y, +z, -z of the cube, as they are seen from inside it: up is +y, but -z for +y and +z for
-  /// -y. sRGB; where there is an A, linear colours are divided by it (RGBD).
+  /// +x, -x, +y, -y, +z, -z, as seen from inside the cube. Up is +y, but -z for the face +y and +z for the
+  /// face -y. sRGB; if there is an alpha channel, linear colours are divided by it (RGBD).
   std::array<Image, 6> faces;
   float intensity = 1.0f;                                  ///< multiplies the faces
   Eigen::Matrix3f rotation = Eigen::Matrix3f::Identity();  ///< from the cube to the world
@@ -202,12 +202,12 @@ struct Camera {
 /// An animation of the file. LoadOptions::time says which moment the scene shows.
 struct Animation {
   std::string name;
-  double seconds = 0.0;  ///< time of its last key, by the file's own statement; 0 where there is none
+  double seconds = 0.0;  ///< time of its last key as declared in the file; 0 without keys
 };
 
-/// What the time changes, beside the cameras (SceneFile::show()).
+/// The parts of the scene, besides the cameras, that change over time (SceneFile::show()).
 struct SceneMotion {
-  bool instances = false;  ///< transforms, vertices or visibility of those that move
+  bool instances = false;  ///< transforms, vertices or visibility
   bool lights = false;
   bool image_light = false;
   bool materials = false;
@@ -224,7 +224,7 @@ struct DeformedVertices {
   friend bool operator==(const DeformedVertices&, const DeformedVertices&) = default;
 };
 
-/// The place of a punctual light at one time; see PunctualLight.
+/// Position and orientation of a punctual light at one time; see PunctualLight.
 struct LightPlace {
   Vec3 position = Vec3::Zero();
   Vec3 direction{0.0f, 0.0f, -1.0f};
@@ -233,13 +233,12 @@ struct LightPlace {
   friend bool operator==(const LightPlace&, const LightPlace&) = default;
 };
 
-/// What moves while the shutter is open: a list by the scene's numbers, each with the state at two or more
-/// evenly spaced times, from the opening to the closing; between them it changes linearly (scene/shutter.h).
-/// The list of what stands still is empty. The scene itself is that of the middle. All else stands still
-/// there.
+/// Motion while the shutter is open. Lists have the scene's indices; an entry holds the states at two or more
+/// evenly spaced times from opening to closing, between which it changes linearly (scene/shutter.h). The
+/// entry of a static object is empty. The scene itself shows the middle of the exposure.
 struct ShutterMotion {
-  /// What a clock shows at evenly spaced times, from 0 to 1, with 0.5 in the middle. Twice the same:
-  /// something jumps then. Empty: times are those of the clock.
+  /// The shutter time of each state, from 0 to 1, with 0.5 in the middle. Two equal times mark a jump. Empty
+  /// if the states are evenly spaced in time.
   std::vector<float> clock;
   std::vector<std::vector<Affine>> transforms;          ///< of instances
   std::vector<std::vector<DeformedVertices>> vertices;  ///< of meshes
@@ -261,12 +260,12 @@ struct Scene {
   std::vector<std::string> dark_lights;  ///< names of emissive materials that adjust_lights() made black
   std::vector<Camera> cameras;
   std::vector<std::string> variants;  ///< names of KHR_materials_variants
-  std::vector<Animation> animations;  ///< all of the file, shown or not
+  std::vector<Animation> animations;  ///< all of the file, even if not evaluated
   SceneMotion motion;
   ShutterMotion shutter;
   std::vector<std::string> warnings;  ///< one line each, without duplicates
-  /// World; empty when there is no triangle. Of the nodes' own pose where things move, so that choices by the
-  /// scene's size hold at all times.
+  /// In world space; empty if there are no triangles. In animated scenes, the bounds of the static pose, so
+  /// that choices that depend on the scene's size are the same at all times.
   Box bounds;
   /// Position of the world's origin in the file's coordinates. It is not zero for a scene that lies far from
   /// the file's origin, compared with its size: single precision would lose too many digits there

@@ -1,6 +1,6 @@
 #pragma once
-// Writes files that are either complete or absent. The data goes to a file without a name, or with a
-// temporary name in the same folder where the file system needs one. Then it gets its final name.
+// Writes files that are either complete or absent. The data goes to an unnamed file, or to a temporary file
+// in the same folder if the file system requires a name. Finally, the file gets its real name.
 
 #include <cstdio>
 #include <filesystem>
@@ -10,8 +10,8 @@
 
 namespace gatelight {
 
-/// The path of a file written to `path`: follows symbolic links to their end, whether or not a file exists
-/// there.
+/// Returns the path that a write to `path` replaces. Symbolic links are followed to their target, which need
+/// not exist.
 std::filesystem::path replaced_file(std::filesystem::path path);
 
 /// Throws OutputError unless a file can be made at `path`: its folder exists and can be written, and the path

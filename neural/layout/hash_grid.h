@@ -29,7 +29,7 @@ struct HashGridOptions {
 /// Level l has scale = base growth^l - 1 and resolution res = ceil(scale) + 1. A point x in [0,1]^3 lies at x
 /// scale + 0.5. The index of a corner is x + y res + z res^2 (dense) if res^3 entries fit, else x ^ y
 /// 2654435761 ^ z 805459861 (32 bits). Both are taken modulo `entries`: corners of a cell at the far border
-/// have a coordinate of res, so a dense index can exceed the entries, but not their double.
+/// have a coordinate of res, so a dense index can exceed `entries`, but not twice its value.
 struct HashGridLevel {
   float scale = 0.0f;
   std::uint32_t resolution = 0;

@@ -27,7 +27,7 @@ struct StepStatistics {
   std::uint64_t touched_nodes = 0;
   std::uint64_t skipped_updates = 0;  ///< parameters of the network or nodes whose gradient is not finite
   double seconds_network = 0.0;       ///< encode, forward, loss, backward
-  double seconds_sort = 0.0;          ///< sort of the gradients by node, where it is a part of its own
+  double seconds_sort = 0.0;          ///< sorting gradients by node, if it is a separate step
   double seconds_update = 0.0;        ///< reduction and Adam
   double seconds = 0.0;               ///< the whole call
 };
@@ -44,15 +44,16 @@ struct QueryOptions {
   bool averaged = true;  ///< use the averages; else the raw parameters
 };
 
-/// Trains and queries one model. Only one thread may call at a time, but for query(), where it says so. Results
-/// have the same bits for any number of threads. A batch with spans of the wrong length throws BadConfiguration and changes nothing.
+/// Trains and queries one model. Only one thread at a time may call its functions; query() is an exception if
+/// answers_threads(). Results have the same bits for any number of threads. A batch with spans of the wrong
+/// length throws BadConfiguration and changes nothing.
 class Backend {
  public:
   virtual ~Backend() = default;
   /// Makes one step over the whole batch. All started steps must be finished before. A batch without an
   /// accepted record changes nothing.
   virtual StepStatistics train(const TrainingBatch& batch) = 0;
-  /// The same by the lead of a team, with the team's threads.
+  /// The same, called by the leader of a team whose threads share the work.
   virtual StepStatistics train(const TrainingBatch& batch, Team&) { return train(batch); }
   /// Starts a step. The caller may change the batch as soon as this returns. Later queries, exports and steps
   /// see its result.

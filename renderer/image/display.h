@@ -16,13 +16,13 @@ struct DisplayOptions {
   OcioView ocio;  ///< replaces the curve and sRGB
 };
 
-/// The beauty layer, rows from the top: R, G, B of each pixel as the display's code values in [0, 1], sRGB
-/// without OpenColorIO. A fourth value is the alpha where the layer has one; the colours are then those
-/// without it (straight alpha). A layer of one channel is grey. Throws BadOption for a view that the
-/// configuration has not, MissingLibrary where OpenColorIO is needed and cannot be loaded.
+/// Converts the beauty layer to display values in [0, 1]: R, G, B of each pixel, rows from the top, sRGB
+/// unless OpenColorIO is used. If the layer has an alpha, it follows as a fourth value, and the colours are
+/// no longer multiplied by it (straight alpha). A layer of one channel becomes grey. Throws BadOption if the
+/// configuration does not have the view, MissingLibrary if OpenColorIO is needed and cannot be loaded.
 std::vector<float> displayed(const Picture& picture, const DisplayOptions& options);
 
-/// Throws what displayed() would, before there is a picture.
+/// Throws what displayed() would throw. Call it before rendering.
 void check_display(const DisplayOptions& options);
 
 }  // namespace gatelight::renderer

@@ -8,9 +8,9 @@ namespace gatelight::renderer {
 
 enum class ImageFormat { exr, png, jpeg, tiff, hdr, unknown };
 
-/// The extension decides, in upper or lower case.
+/// Determined by the extension, in upper or lower case.
 ImageFormat image_format(const std::filesystem::path& path);
-/// The usual one: ".jpg".
+/// The usual extension of the format, such as ".jpg".
 std::string_view extension_of(ImageFormat format);
 
 }  // namespace gatelight::renderer

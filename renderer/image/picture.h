@@ -15,11 +15,12 @@ struct Layer {
   std::vector<float> values;          ///< width * height * channels, interleaved; the first row is the top
   bool full_precision = false;        ///< always written as 32-bit float (ids, depth, position)
 
-  /// Whether the last channel is A. Colours are then multiplied by it.
+  /// Whether the last channel is A. The colours are then premultiplied by it.
   bool has_alpha() const { return channels.back() == "A"; }
 };
 
-/// From points in metres, of the scene's file, to the picture. Column after column, for column vectors.
+/// Transforms from the coordinates of the scene's file, in metres, to the picture. Column-major, for column
+/// vectors.
 struct ViewMatrices {
   std::array<float, 16> world_to_camera;  ///< x right, y up, z into the picture
   std::array<float, 16> world_to_ndc;     ///< (0, 0) top left to (1, 1) bottom right of the full picture
@@ -35,7 +36,7 @@ struct Picture {
   std::vector<Layer> layers;  ///< the first one is the beauty layer
   std::map<std::string, std::string>
       metadata;  ///< how the picture was made; in the EXR header as "gatelight:KEY"
-  std::map<std::string, std::string> attributes;  ///< in the EXR header as they are: those of cryptomatte.h
+  std::map<std::string, std::string> attributes;  ///< copied to the EXR header (cryptomatte.h)
 
   std::optional<ViewMatrices> view;  ///< in the EXR header as worldToCamera and worldToNDC
 

@@ -1,6 +1,5 @@
 #pragma once
-// The output variables: further layers of a picture. One table says all that the options, the film, files and
-// the window know of them.
+// The output variables: additional layers of a picture. Options, film, files and window all use one table.
 
 #include <algorithm>
 #include <cstdint>
@@ -49,11 +48,11 @@ enum class Aov : std::uint8_t {
 enum class AovSource : std::uint8_t {
   first_hit,  ///< the film's data of primary hits
   samples,    ///< the film's sums of the samples
-  pass,       ///< a part of the samples' light: the passes of a picture without a limit add up to it
+  pass,       ///< a part of the samples' light; all passes sum to the picture
   other,      ///< it is added to the finished picture
 };
 
-/// What a pixel of the picture has of the several film pixels that it covers (`supersampling`).
+/// How a pixel of the picture is computed from the film pixels that it covers (`supersampling`).
 enum class AovScaling : std::uint8_t {
   mean,
   sum,
@@ -61,7 +60,7 @@ enum class AovScaling : std::uint8_t {
   first,          ///< the value of one of them: places and ids have no mean
 };
 
-/// What a picture must have for the variable not to be black.
+/// What a picture needs to fill the variable, which is black otherwise.
 enum class AovNeeds : std::uint8_t {
   nothing,
   light,           ///< an integrator of light: `path` or `nrc`
@@ -89,15 +88,15 @@ struct AovInfo {
   AovScaling scaling = AovScaling::mean;
   AovLook look = AovLook::heat;
   bool half = false;      ///< half precision suffices
-  std::string_view help;  ///< what the name does not say
+  std::string_view help;  ///< explains the name
 };
 
 constexpr AovInfo render_pass(Aov aov, std::string_view name, std::string_view help = "") {
   return {aov, name, "RGB", AovSource::pass, AovNeeds::light, AovScaling::mean, AovLook::light, false, help};
 }
 
-/// In the order of the enumeration. Outputs of the cache are those at the vertex of a path's first query;
-/// they are black without one.
+/// In the order of the enumeration. Cache variables hold the values at the vertex of a path's first query;
+/// without a query they are black.
 inline constexpr AovInfo kAovs[] = {
     {.aov = Aov::albedo, .name = "albedo", .channels = "RGB", .look = AovLook::color, .half = true},
     {.aov = Aov::normal, .name = "normal", .channels = "XYZ", .look = AovLook::direction, .half = true},
@@ -190,7 +189,7 @@ inline constexpr AovInfo kAovs[] = {
 inline const AovInfo& info_of(Aov aov) {
   return kAovs[static_cast<std::size_t>(aov)];
 }
-/// The row of a layer; null for one that is no output variable.
+/// The row of a layer; null if the layer is not an output variable.
 inline const AovInfo* find_aov(std::string_view layer) {
   const auto* const found =
       std::find_if(std::begin(kAovs), std::end(kAovs), [&](const AovInfo& row) { return row.name == layer; });

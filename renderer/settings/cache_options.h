@@ -14,8 +14,7 @@ namespace gatelight::renderer {
 /// queried. cache/cached_light.h is the definition.
 enum class CachedComponent : std::uint8_t {
   all,       ///< everything (the paper)
-  no_delta,  ///< all but direct light of punctual lights, which costs one shadow ray and keeps edges of the
-             ///< sun sharp
+  no_delta,  ///< all except direct light of punctual lights, which costs one shadow ray and has sharp edges
   indirect,  ///< only indirect light; direct light is sampled at the point
 };
 
@@ -24,7 +23,7 @@ enum class QueryAt : std::uint8_t {
   primary,  ///< the first vertex (the paper)
   gather,   ///< the vertex after the first wide scattering event
   spread,   ///< where the path has spread out (Mueller et al. 2021)
-  none,     ///< nowhere: paths run to their end, as a reference for the cache
+  none,     ///< nowhere: paths are traced to their end, as a reference for the cache
 };
 
 enum class CacheOutput : std::uint8_t {
@@ -41,9 +40,9 @@ enum class TrainingSource : std::uint8_t {
 
 /// Training paths that end in the cache's own answer (Mueller et al. 2021).
 struct SelfTrainingOptions {
-  int start_step = 192;           ///< paths run to their end before it; negative: always
-  int vertices = 2;               ///< number that become records before the answer
-  float full_fraction = 0.0625f;  ///< share of the paths that still run to their end
+  int start_step = 192;           ///< before it, paths are traced to their end; negative: always
+  int vertices = 2;               ///< vertices that become records before the answer
+  float full_fraction = 0.0625f;  ///< share of the paths that are still traced to their end
   float attenuation = 1.0f;       ///< factor of the answer, in [0, 1]
 };
 
@@ -55,7 +54,7 @@ struct CacheOptions {
   int path_length = 0;             ///< scattering events of a training path; 0: only Russian roulette
   int samples_per_point = 1;       ///< paths averaged in the record of a training point
   TrainingSource source = TrainingSource::camera;
-  int samples_from_step = 32;  ///< first step whose paths are samples: before it the cache is too coarse
+  int samples_from_step = 32;  ///< first step whose paths are samples; earlier, the cache is too coarse
   int candidates = 1;          ///< points from which the one with the least trained triangle is chosen
   SelfTrainingOptions self_training;
   /// Node spacing in metres; empty: chosen by scouting. Overrides gate.node_spacing.
@@ -63,17 +62,17 @@ struct CacheOptions {
 
   // The model. Input encodings and the hash grid's bounds follow from the scene.
   neural::FeatureEncoding encoding = neural::FeatureEncoding::gate;
-  /// Each level is three times as coarse as the one before, also where vertices of small triangles are
-  /// clustered: the few records of a preview train the coarse levels first.
+  /// Each level is three times coarser than the previous one, even where vertices of small triangles are
+  /// clustered, because the few records of a preview train the coarse levels first.
   neural::GateOptions gate = {.stack = {neural::kAdaptive, neural::adaptive_part(3), neural::adaptive_part(9),
                                         neural::adaptive_part(27)}};
   neural::HashGridOptions hash_grid;
   std::uint64_t memory_bytes = 0;  ///< of all features, for either encoding; 0: no limit
   neural::MlpOptions mlp;
   neural::TrainingOptions training = {.adam = {.learning_rate = 1e-2f}};
-  /// Inputs beside the position. Empty: chosen by scene and encoding.
+  /// Inputs besides the position. Empty: chosen from scene and encoding.
   std::optional<bool> direction_input, normal_input, albedo_input;
-  bool scout = true;  ///< storage only for the sides of instances that scouting paths hit
+  bool scout = true;  ///< store features only for the sides of instances that scouting paths hit
 
   // Queries.
   CachedComponent component = CachedComponent::no_delta;
@@ -91,8 +90,8 @@ struct CacheOptions {
   std::string cache_out;
 };
 
-/// Adds the name and value of each member that decides bits, as add_plain_members() of RenderOptions does.
-/// The time of training and the file that is written decide none.
+/// Adds the name and value of each member that affects bits, as add_plain_members() of RenderOptions does.
+/// The time limit of training and the output file affect none.
 template <class Texts>
 void add_plain_members(Texts& texts, const CacheOptions& options) {
   [[maybe_unused]] const auto& [train_steps, train_seconds, batch, path_length, samples_per_point, source,

@@ -17,12 +17,12 @@ constexpr bool uses_cache(Integrator integrator) {
 }
 enum class MisHeuristic : std::uint8_t { balance, power };
 enum class DirectLight : std::uint8_t { mis, nee, bsdf };  ///< without MIS, nee and bsdf are for tests
-/// How light reaches rough surfaces through glass that has an inside.
+/// How light reaches rough surfaces through solid glass.
 enum class GlassShadows : std::uint8_t {
-  refract,   ///< shadow rays end at the glass, and only bounces find the light that it refracts
-  straight,  ///< tinted, unrefracted (an approximation): shadow rays and bounces pass as through panes
+  refract,   ///< shadow rays end at the glass, and only bounces find refracted light
+  straight,  ///< rays pass tinted but not refracted, as through panes (an approximation)
 };
-/// How a picture shows the scene.
+/// How the scene is projected onto the picture.
 enum class Projection : std::uint8_t {
   camera,  ///< as the camera of the file
   perspective,
@@ -33,24 +33,24 @@ enum class PixelFilter : std::uint8_t { box, tent, gaussian, blackman_harris };
 enum class NanPolicy : std::uint8_t { drop, error };
 /// The denoiser of a picture.
 enum class DenoiserKind : std::uint8_t {
-  automatic,  ///< Open Image Denoise where it is found, else nothing
+  automatic,  ///< Open Image Denoise if it is found, else nothing
   oidn,       ///< Open Image Denoise
   none,
 };
 
-/// Filter of albedo and normal before they guide the denoiser, with Blender's names.
+/// Filtering of albedo and normal before they guide the denoiser, with the names of Blender.
 enum class Prefilter : std::uint8_t {
-  accurate,  ///< each is denoised first, then read by the larger network
-  fast,      ///< read as they are by the smaller network, which expects noise in them
-  none,      ///< read as they are by the larger network, which expects none
+  accurate,  ///< each is denoised first; the larger network reads the result
+  fast,      ///< not filtered; the smaller network, which expects noise, reads them
+  none,      ///< not filtered; the larger network, which expects no noise, reads them
 };
 
 /// Kinds of names that a Cryptomatte separates.
 enum class MatteKind : std::uint8_t { object, material };
 
 enum class SamplerKind : std::uint8_t {
-  sobol,  ///< Owen-scrambled Sobol points, padded: every pair of dimensions is a (0,2)-sequence of its own
-  independent,  ///< a hash of the key
+  sobol,  ///< Owen-scrambled Sobol points, padded: every pair of dimensions is a separate (0,2)-sequence
+  independent,  ///< independent numbers, hashed from the key
 };
 
 enum class LightSelection : std::uint8_t {

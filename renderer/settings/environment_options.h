@@ -20,10 +20,11 @@ struct FogOptions {
 };
 
 struct EnvironmentOptions {
-  /// A soft sky (light/soft_sky.h), where no light of the scene shows it. The others are then not set.
+  /// Adds a soft sky (light/soft_sky.h) if the scene would be dark without it. File, constant and sky are
+  /// then not set.
   bool automatic = false;
   std::string file;                  ///< EXR or HDR picture, latitude-longitude; empty: constant
-  Color constant{0.0f, 0.0f, 0.0f};  ///< radiance, where there is no file
+  Color constant{0.0f, 0.0f, 0.0f};  ///< radiance, if there is no file
   std::optional<SkyOptions> sky;     ///< a clear sky with a sun; file and constant are then not set
   float rotation_degrees = 0.0f;     ///< about +y, counter-clockwise seen from above
   float scale = 1.0f;

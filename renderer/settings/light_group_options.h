@@ -6,19 +6,19 @@
 
 namespace gatelight::renderer {
 
-/// Lights whose part of a picture is a layer of its own.
+/// Lights whose part of the picture gets a separate layer.
 struct LightGroup {
   std::string name;  ///< letters, digits, '-' and '_'
-  /// Names of punctual lights and of emissive materials, where a '*' at the end stands for any further
-  /// letters, and the word `environment`.
+  /// Names of punctual lights and emissive materials, or the word `environment`. A '*' at the end of a name
+  /// matches any ending.
   std::vector<std::string> lights;
 
   bool operator==(const LightGroup&) const = default;
 };
 
-/// The name in a group of the environment with its sun.
+/// The name of the environment, including its sun, in a group.
 inline constexpr const char* kEnvironmentWord = "environment";
-/// The group of the lights that no group names.
+/// The group of all lights that belong to no other group.
 inline constexpr const char* kRestGroup = "rest";
 /// Prefix of the names of their layers.
 inline constexpr const char* kLightLayer = "light-";
@@ -26,7 +26,7 @@ inline constexpr std::size_t kMaxLightGroups = 16;
 
 /// The groups as a text: "NAME=LIGHT,LIGHT;NAME=LIGHT".
 std::string text_of(const std::vector<LightGroup>& groups);
-/// Refuses unless there are at most kMaxLightGroups, each with lights and a name of its own.
+/// Throws BadOption unless there are at most kMaxLightGroups groups, each with lights and a unique name.
 void check_light_groups(const std::vector<LightGroup>& groups);
 
 }  // namespace gatelight::renderer

@@ -18,43 +18,42 @@
 
 namespace gatelight::renderer {
 
-/// A file from which a picture resumes, bit for bit, after the program has ended.
+/// The checkpoint file, from which an interrupted render resumes with bit-identical results.
 struct CheckpointOptions {
   std::string file;  ///< empty: none
   double every_seconds = 60.0;
-  bool resume = false;  ///< resume from `file` where it exists
+  bool resume = false;  ///< resume from `file` if it exists
 };
 
-/// A view given by hand, in the file's coordinates; replaces the file's cameras.
+/// An explicit view in the file's coordinates; replaces the file's cameras.
 struct LookAt {
   Vec3 eye = Vec3::Zero();
   Vec3 target{0.0f, 0.0f, -1.0f};
   Vec3 up{0.0f, 1.0f, 0.0f};
 };
 
-/// Depth of field. Without an aperture all is sharp.
+/// Depth of field. Without an aperture, everything is sharp.
 struct LensOptions {
   float aperture = 0.0f;  ///< diameter in metres, unless f_stop is set
   float f_stop = 0.0f;    ///< focal length over diameter; 0: not set
-  std::string focus;      ///< metres along the view, or a node; empty: the distance in the picture's middle
+  std::string focus;      ///< metres along the view, or a node; empty: the distance at the picture's centre
   int blades = 0;         ///< corners of the aperture; 0: round
 };
 
 struct CameraOptions {
   std::string name;  ///< of a camera or its node, or an index; empty: the first, or auto-framing
-  std::optional<std::size_t> index;  ///< of a camera of the file; wins over `name`, which may be ambiguous
+  std::optional<std::size_t> index;  ///< of a camera of the file; overrides `name`, which may be ambiguous
   std::optional<LookAt> look_at;
   std::optional<float> fov_degrees;  ///< vertical; overrides the camera's
-  std::optional<float> focal_mm;     ///< the same, with 36 mm across the wider side of the picture
+  std::optional<float> focal_mm;     ///< focal length; the longer side of the picture is 36 mm
   Projection projection = Projection::camera;
   std::optional<float> view_height;  ///< metres, of an orthographic picture
   LensOptions lens;
-  float turn =
-      0.0f;  ///< radians by which the camera goes around what it looks at, seen from above to the left
-  float turn_in_shutter = 0.0f;  ///< radians of that way that it goes while the shutter is open
+  float turn = 0.0f;  ///< radians by which the camera orbits its target, counter-clockwise from above
+  float turn_in_shutter = 0.0f;  ///< radians of this orbit while the shutter is open
 };
 
-/// Number of samples per pixel which means that something else ends the picture.
+/// The value of spp if only another limit ends the picture.
 inline constexpr int kUnlimitedSpp = 1 << 24;
 
 /// More scattering events than Russian roulette lets a path reach.
@@ -62,24 +61,25 @@ inline constexpr int kNoDepthLimit = 1 << 30;
 
 struct RenderOptions {
   Integrator integrator = Integrator::path;
-  /// With nrc: a scene whose light paths are too short for a cache to pay off gets path
+  /// With nrc: use path if the light paths of the scene are too short for a cache to pay off
   /// (driver/chosen_integrator.h).
   bool choose_integrator = false;
   int width = 960;
   int height = 540;
   std::optional<std::array<int, 4>> region;  ///< x0, y0, x1, y1 in pixels, x1 and y1 excluded
   int spp = 64;                              ///< kUnlimitedSpp: as many as fit into the time limit
-  /// Replaces spp where choose_integrator takes path, for about the same time; 0: spp.
+  /// Replaces spp if choose_integrator selects path, so that rendering takes about the same time; 0: use spp.
   int spp_of_paths = 0;
   /// Time of scouting, setup, training, passes and denoising together; 0: no limit.
   double time_limit_seconds = 0.0;
   double max_error = 0.0;  ///< rendering ends at this estimated error (relative RMS); 0: off
-  /// Scattering events; 1 is emission and direct light. Without a limit only Russian roulette ends paths.
+  /// Largest number of scattering events; 1 means emission and direct light. Without a limit, only Russian
+  /// roulette ends paths.
   std::optional<int> max_depth;
-  std::optional<int> max_transmission_depth;  ///< scattering events to the other side of a surface
+  std::optional<int> max_transmission_depth;  ///< largest number of transmissions through surfaces
   int min_depth = 2;                          ///< Russian roulette starts after this many scattering events
   std::uint32_t seed = 0;
-  int threads = 0;  ///< 0: what the machine and the cgroup allow
+  int threads = 0;  ///< 0: as many as the machine and the control group allow
   SamplerKind sampler = SamplerKind::sobol;
   PixelFilter filter = PixelFilter::blackman_harris;
   float filter_width = 0.0f;  ///< pixels, full width; 0: the filter's own default
@@ -104,7 +104,7 @@ struct RenderOptions {
   CheckpointOptions checkpoint;
 };
 
-/// Adds the name and value of each plain member that decides bits to a fingerprint, which has `add`
+/// Adds the name and value of each plain member that affects bits to a fingerprint, which has `add`
 /// (fingerprint/deciding_options.cpp adds the others). A new member does not compile until it is named here.
 template <class Texts>
 void add_plain_members(Texts& texts, const RenderOptions& options) {

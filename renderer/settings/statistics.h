@@ -41,9 +41,9 @@ struct RayCounts {
 
 /// Statistics of the cache; zero for integrators without one. Seconds are wall time.
 struct CacheStatistics {
-  int steps = 0;  ///< trained for this picture, without those of a loaded cache
+  int steps = 0;  ///< trained for this picture, excluding those of a loaded cache
   int steps_wanted = 0;
-  bool steps_chosen = false;   ///< from the picture's pixels and samples, not by the caller
+  bool steps_chosen = false;   ///< by the renderer, from pixels and samples, instead of by the caller
   std::uint64_t records = 0;   ///< trained with
   std::uint64_t rejected = 0;  ///< left out because they were not finite
   std::uint64_t unstored = 0;  ///< on surfaces without storage
@@ -53,22 +53,22 @@ struct CacheStatistics {
   double scout_seconds = 0.0;
   double setup_seconds = 0.0;  ///< from scouting to the first step: layout, parameters, optimiser
   double train_seconds = 0.0;  ///< the whole phase, without scouting and setup
-  // Its parts, which go on at once: the time that all threads spend on each, over the number of threads.
+  // Its parts, which overlap: the time of all threads, divided by their number.
   double train_trace_seconds = 0.0;
   double train_query_seconds = 0.0;   ///< answers at the ends of training paths
-  double train_step_seconds = 0.0;    ///< all else: the steps, and threads that wait
+  double train_step_seconds = 0.0;    ///< everything else: the steps and waiting threads
   double render_trace_seconds = 0.0;  ///< the same for the passes
   double render_query_seconds = 0.0;
   std::uint64_t queries = 0;           ///< of the rendering phase
-  std::uint64_t negative_answers = 0;  ///< clamped to zero: points with a negative channel
-  std::uint64_t unstored_hits = 0;     ///< vertices without storage where the path was traced on
+  std::uint64_t negative_answers = 0;  ///< points with a negative channel, which is clamped to zero
+  std::uint64_t unstored_hits = 0;     ///< vertices without storage, where paths continued
   std::uint64_t nodes = 0;
   std::uint64_t surfaces_stored = 0;    ///< sides of instances with storage
-  std::uint64_t surfaces_possible = 0;  ///< two per instance where materials show both
+  std::uint64_t surfaces_possible = 0;  ///< two per instance if its material shows both
   float node_spacing = 0.0f;            ///< metres, resolved
   float target_scale = 1.0f;            ///< targets are radiance times this
   double records_per_path = 0.0;        ///< found by scouting
-  bool direction_input = false;         ///< inputs of the network beside the features
+  bool direction_input = false;         ///< inputs of the network besides the features
   bool normal_input = false;
   bool albedo_input = false;
   std::vector<std::uint64_t> resolution_histogram;  ///< instances by R
@@ -76,7 +76,7 @@ struct CacheStatistics {
   std::size_t optimizer_bytes = 0;
   std::size_t layout_bytes = 0;
   std::string backend;
-  double light_change = 0.0;  ///< in an animation, since the frame before (cache/light_change.h)
+  double light_change = 0.0;  ///< in an animation, since the previous frame (cache/light_change.h)
   std::string diverged;       ///< why training returned to its last good state (`steps`); else empty
 };
 
@@ -85,13 +85,13 @@ struct RankStatistics {
   int threads = 0;
   std::uint64_t samples = 0;  ///< camera paths of the picture
   std::uint64_t training_paths = 0;
-  std::uint64_t record_bytes = 0;  ///< of this rank's records of training, packed
-  double seconds = 0.0;            ///< since the picture was begun
-  std::uint64_t bytes_sent = 0;    ///< to all other ranks, in all
-  double waiting_seconds = 0.0;    ///< for other ranks, with the transfers
+  std::uint64_t record_bytes = 0;  ///< of this rank's training records, packed
+  double seconds = 0.0;            ///< since the start of the picture
+  std::uint64_t bytes_sent = 0;    ///< to all other ranks together
+  double waiting_seconds = 0.0;    ///< for other ranks, including transfers
 };
 
-/// The cause of a picture's end.
+/// The reason why rendering ended.
 enum class EndedBy : std::uint8_t { spp, max_error, time_limit, caller, device };
 
 struct RenderStatistics {
@@ -104,12 +104,12 @@ struct RenderStatistics {
   double cryptomatte_seconds = 0.0;
   int width = 0;
   int height = 0;
-  int spp = 0;                ///< finished for every pixel
-  std::uint64_t samples = 0;  ///< camera paths in all
+  int spp = 0;                ///< finished in every pixel
+  std::uint64_t samples = 0;  ///< total of camera paths
   int threads = 0;
   std::string isa;                         ///< that Embree chose
-  std::vector<std::string> warnings;       ///< of building: input that was not taken literally
-  std::optional<double> bounces_of_paths;  ///< by which the integrator was chosen, where it was
+  std::vector<std::string> warnings;       ///< about input that could not be used as given
+  std::optional<double> bounces_of_paths;  ///< by which the integrator was chosen, if it was
   RayCounts rays;
   std::size_t geometry_bytes = 0;
   std::size_t bvh_bytes = 0;
@@ -122,9 +122,9 @@ struct RenderStatistics {
   std::optional<double> estimated_error;  ///< of the picture, relative RMS (metrics/estimated_error.h)
   EndedBy ended_by = EndedBy::spp;
   bool interrupted = false;  ///< stopped before `spp` was reached, by the time limit or by the caller
-  std::vector<RankStatistics> ranks;  ///< where there are several
-  double reused = 0.0;                ///< share of the pixels that had samples of earlier frames
-  std::string device_lost;            ///< why the device was lost, where that ended the picture; else empty
+  std::vector<RankStatistics> ranks;  ///< if there are several
+  double reused = 0.0;                ///< share of the pixels that reused samples of earlier frames
+  std::string device_lost;            ///< why the device was lost, if that ended the picture; else empty
 };
 
 }  // namespace gatelight::renderer
