@@ -26,9 +26,10 @@ namespace {
 
 constexpr const char* kProgramFooter =
     R"(Exit codes: 0 done; 1 wrong usage; 2 scene or input file unusable; 3 output could not be written; 4 out of memory or
-over the limit given; 5 CPU, GPU or ISA not available; 6 numerical failure (--nan error); 7 some cells of a sweep failed;
-8 nothing in a sweep is within the limits of --advise; 9 another rank of gatelight-mpi does not answer; 129, 130 and 143
-stopped by a signal after writing the picture so far. The last line on stderr says what failed, on which file, and what to do.
+over the limit given; 5 CPU, GPU or ISA not available; 6 numerical failure (--nan error); 7 some cells of a sweep
+failed; 8 no cell of a sweep is within the limits of --advise; 9 another rank of gatelight-mpi does not answer; 129, 130
+and 143 stopped by a signal after writing the picture so far. The last line on stderr says what failed, on which file,
+and what to do.
 
 Examples:
   gatelight render room.glb -o room.exr -o room.png --spp 256

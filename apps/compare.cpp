@@ -33,24 +33,24 @@ constexpr const char* kCompareFooter = R"(Over the red, green and blue of the be
   mse       mean squared error
   rel_mse   mean of the squared error over (squared reference + 0.01)
   psnr      peak signal to noise ratio in dB, for a peak of 1
-  mean      mean of the absolute difference, and of the signed one (test minus reference)
+  mean      mean absolute difference, and mean signed difference (test minus reference)
   max       largest absolute difference
-  ssim      mean structural similarity (Wang et al. 2004) of flip's input in grey: 1 for equal pictures. A Gaussian
-            window of 11x11 pixels that must lie within the picture, K1 0.01, K2 0.03; none for smaller pictures
+  ssim      mean structural similarity (Wang et al. 2004) of flip's input in grey: 1 for equal pictures. The Gaussian
+            window of 11x11 pixels must lie within the picture; K1 is 0.01, K2 0.03. Smaller pictures have no ssim
   flip      LDR-FLIP (2020), the visible difference when the pictures alternate: mean, quartiles weighted by the
             error, smallest and largest. Radiance is shown with --exposure and --tonemap, cut to [0, 1]
   hdr_flip  HDR-FLIP (2021): the largest FLIP over the exposures that suit the reference
-  temporal  of two or more --frames: how much more or less TEST changes from frame to frame than REFERENCE, as
-            differences of flip's input, sRGB. Root mean squares: temporal_low of the low frequencies (a Gaussian
-            of 6 pixels: areas that flicker), temporal_high of the others (noise, edges)
-Pictures with pixels that are not finite are refused, unless --metric names only those that can leave such pixels out
-(mse, rel_mse, psnr, mean, max); then they are counted and reported. PNG files are converted to linear first.
+  temporal  needs two or more --frames: compares the changes from frame to frame in TEST with those in REFERENCE, in
+            flip's input (sRGB). Root mean squares: temporal_low of the low frequencies (a Gaussian of 6 pixels;
+            flickering areas), temporal_high of the high frequencies (noise, edges)
+Pictures with pixels that are not finite are refused, unless --metric names only metrics that can ignore such pixels
+(mse, rel_mse, psnr, mean, max); these pixels are then counted and reported. PNG files are first converted to linear.
 
-With --frames each value is the mean of those of the frames; the JSON also has each frame's.
+With --frames, each value is the mean over the frames; the JSON also contains the values of each frame.
 
-With --halves the pictures are the means of REFERENCE and REF2, TEST and TEST2 (weighted by their samples per pixel),
-and bias_rel_mse is the rel_mse that would remain with infinitely many samples, free of the noise of all four: the mean
-of (TEST - REFERENCE)(TEST2 - REF2) over (squared reference + 0.01). Each must have a seed of its own.
+With --halves, the mean of REFERENCE and REF2 is compared with the mean of TEST and TEST2 (weighted by their samples per
+pixel). bias_rel_mse is the rel_mse that would remain with infinitely many samples, free of the noise of all four: the
+mean of (TEST - REFERENCE)(TEST2 - REF2) over (squared reference + 0.01). All four pictures need different seeds.
 
 Examples:
   gatelight compare reference.exr test.exr
@@ -167,30 +167,31 @@ std::vector<Option> option_table(CompareSettings& settings) {
   using namespace renderer;
   std::vector<Option> table = {
       positional("REFERENCE", settings.reference, "Reference picture, .exr, .hdr or .png"),
-      positional("TEST", settings.test, "Picture to be judged, .exr, .hdr or .png"),
+      positional("TEST", settings.test, "Picture to compare with it, .exr, .hdr or .png"),
       any_words("halves", settings.halves, "REF2 TEST2",
-                "Second halves of reference and test: also estimates the bias without noise"),
+                "Second halves of reference and test; also estimate the bias without noise"),
       read_by(
           "frames", settings.frames, "A:B[:STEP]",
-          "Frames of two sequences, REFERENCE and TEST with the place of their number: ref-%04d.exr, #### "
-          "or {frame}",
+          "Compare these frames of two sequences; REFERENCE and TEST contain %04d, #### or {frame} for the "
+          "number",
           [](const std::optional<FrameList>& frames) { return frames ? text_of(*frames) : OptionValue(); },
           parse_frames),
       any_word(
           "metric", settings.metrics, "LIST",
           "Metrics, separated by commas: mse,rel_mse,psnr,mean,max,ssim,flip,hdr_flip,temporal (default: "
           "all)"),
-      any_word("json", settings.json, "FILE|-", "Result as JSON; - is stdout"),
-      any_word("error-map", settings.error_map, "FILE.png",
-               "Picture of the errors. FLIP's: black 0, violet, red, orange, pale yellow 1; relative: black "
-               "0, violet 0.1, red 0.25, yellow 0.5, white 1 and more, green not finite"),
-      choice("map", settings.map, kMaps, "Which errors --error-map shows"),
+      any_word("json", settings.json, "FILE|-", "Write the result as JSON; - is stdout"),
+      any_word(
+          "error-map", settings.error_map, "FILE.png",
+          "Write a picture of the errors. FLIP: from black (0) through violet, red and orange to pale yellow "
+          "(1); relative: black 0, violet 0.1, red 0.25, yellow 0.5, white 1 and more, green not finite"),
+      choice("map", settings.map, kMaps, "Errors that --error-map shows"),
       number("pixels-per-degree", settings.flip.pixels_per_degree, kPixelsPerDegree, "N",
-             "For FLIP: pixels of a degree of visual angle. The default is a monitor 0.7 m wide with 3840 "
-             "pixels, seen from 0.7 m"),
+             "For FLIP: pixels per degree of visual angle. The default is a monitor with a width of 0.7 m "
+             "and 3840 pixels, seen from 0.7 m"),
       number("exposure", settings.flip.exposure, kStops, "EV",
-             "For flip, ssim and temporal: stops by which pictures are brighter"),
-      choice("tonemap", settings.flip.tonemap, "For flip, ssim and temporal: curve of pictures")};
+             "For flip, ssim and temporal: exposure of the pictures in stops"),
+      choice("tonemap", settings.flip.tonemap, "For flip, ssim and temporal: tone curve of the pictures")};
   for (Option& option : table) {
     if (option.name == "halves") option.words = 2;
     if (option.name == "pixels-per-degree") option.default_text = "67.02";
@@ -202,7 +203,7 @@ std::vector<Option> option_table(CompareSettings& settings) {
 
 Subcommand add_compare_command(CLI::App& root) {
   CLI::App* app =
-      add_subcommand(root, "compare", "Measure how far one picture is from another", kCompareFooter);
+      add_subcommand(root, "compare", "Measure the difference between two pictures", kCompareFooter);
   const auto settings = std::make_shared<CompareSettings>();
   add_flags(*app, option_table(*settings));
   return {.app = app, .run = [settings] { return run_compare(*settings); }};

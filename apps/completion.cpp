@@ -15,8 +15,8 @@ namespace gatelight::apps {
 namespace {
 
 constexpr const char* kCompletionFooter =
-    R"(The Tab key then completes subcommands, flags, their values and files. An installed program brings the scripts along.
-They ask the program, so that they fit each version.
+    R"(The Tab key then completes subcommands, flags, their values and files. An installed program includes the scripts. They
+query the program, so they work with each version.
 
 Examples:
   echo 'source <(gatelight completion bash)' >> ~/.bashrc

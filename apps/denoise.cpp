@@ -13,17 +13,18 @@ namespace gatelight::apps {
 namespace {
 
 constexpr const char* kDenoiseFooter =
-    R"(Takes the noise out of a picture by Open Image Denoise. A picture that was rendered with --aov denoising gives the
-same picture as denoising in the renderer, with its background, exposure and curve, unless flags override them; merged
-parts (gatelight merge) give one finished picture.
+    R"(Removes noise with Open Image Denoise. For a picture that was rendered with --aov denoising, the result equals denoising
+in the renderer, with its background, exposure and curve unless flags override them. Merged parts (gatelight merge) give
+one finished picture.
 
-Layers of other renderers are found by their usual names, in any case (Blender: "Noisy Image", "Denoising Albedo",
-"Denoising Normal"). Albedo or normal alone is a guide, too; without any, only the colours are denoised. Each view layer
-with colours and a guide is denoised; where none has one, only the picture that is shown is. The summary says which.
-An EXR is the input with other colours: layers, types of channels, windows, parts and attributes stay as they are; with
---exr float, the colours become floats. Of an input of several parts, those are read that have the pixels of the first.
+Layers of other renderers are found by their usual names, in upper or lower case (Blender: "Noisy Image", "Denoising
+Albedo", "Denoising Normal"). Albedo or normal alone is also a guide; without any guide, only the colours are denoised.
+Each view layer with colours and a guide is denoised; if none has a guide, only the displayed picture is. The summary
+lists the layers used. An EXR output is a copy of the input with denoised colours: layers, channel types, windows, parts
+and attributes stay unchanged; with --exr float, the colours become floats. In an input with several parts, only parts
+with the pixels of the first one are read.
 
-With the place of a frame's number in INPUT and --output, frames are denoised: those of --frames, or all that there are.
+If INPUT and --output contain a place for a frame number, frames are denoised: those of --frames, or all that exist.
 
 Examples:
   gatelight render room.glb -o samples.exr --spp 64 --aov denoising
@@ -33,14 +34,15 @@ Examples:
 
 std::vector<Option> denoise_table(DenoiseSettings& settings) {
   std::vector<Option> table;
-  table.push_back(positional("INPUT", settings.input, "Picture, .exr; %04d, #### or {frame}: frames"));
+  table.push_back(
+      positional("INPUT", settings.input, "Picture, .exr; with %04d, #### or {frame} in its name: frames"));
   OptionGroup output{table, "Output"};
   add_picture_files(output, settings.outputs, settings.image, settings.exposure);
   output.add(progress_option(settings.progress));
   output.add(toggle("quiet", settings.quiet, "Print errors only"));
   OptionGroup input{table, "Layers of the input"};
   input.add(read_by(
-      "frames", settings.frames, "A:B[:STEP]", "Frames to denoise (default: all that there are)",
+      "frames", settings.frames, "A:B[:STEP]", "Frames to denoise (default: all that exist)",
       [](const auto&) { return OptionValue(); },
       [](const std::string& option, const std::string& text) {
         return parse_frames(option, text).numbers();
@@ -49,11 +51,11 @@ std::vector<Option> denoise_table(DenoiseSettings& settings) {
     input.add(any_word(name, member, "NAME", help));
   };
   add_layer("color-layer", settings.layers.color,
-            "Colours with noise, which are replaced (default: by the usual names)");
+            "Layer with the noisy colours, which are replaced (default: found by its usual names)");
   add_layer("albedo-layer", settings.layers.albedo,
-            "Albedo of the visible surfaces, or none (default: by the usual names)");
+            "Layer with the albedo of visible surfaces, or none (default: found by its usual names)");
   add_layer("normal-layer", settings.layers.normal,
-            "Normals of the visible surfaces, or none (default: by the usual names)");
+            "Layer with the normals of visible surfaces, or none (default: found by its usual names)");
   for (Option& option : picture_options(settings.render)) {
     if (option.marks.of_denoise) table.push_back(std::move(option));
   }
@@ -63,7 +65,7 @@ std::vector<Option> denoise_table(DenoiseSettings& settings) {
 }  // namespace
 
 Subcommand add_denoise_command(CLI::App& root) {
-  CLI::App* app = add_subcommand(root, "denoise", "Take the noise out of a picture", kDenoiseFooter);
+  CLI::App* app = add_subcommand(root, "denoise", "Remove the noise of a picture", kDenoiseFooter);
   const auto settings = std::make_shared<DenoiseSettings>();
   add_flags(*app, denoise_table(*settings));
   return {.app = app, .run = [app, settings] {

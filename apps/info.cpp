@@ -34,10 +34,10 @@ namespace {
 using nlohmann::ordered_json;
 
 constexpr const char* kInfoFooter =
-    R"(With --integrator nao or nrc it also describes the cache that the scene would get for the view of these flags: memory,
+    R"(With --integrator nao or nrc, it also describes the cache that the scene would get for the view of these flags: memory,
 feature vectors, resolutions and sides of the instances, and inputs of the network. Nothing is trained.
 
-For an EXR that gatelight wrote it prints size, layers and the recipe in its header: how the picture was made.
+For an EXR file of gatelight, it prints size, layers and the recipe in the header, which says how the picture was made.
 
 Examples:
   gatelight info
@@ -183,14 +183,14 @@ Subcommand add_info_command(CLI::App& root) {
   const auto settings = std::make_shared<InfoSettings>();
   // A missing texture changes little of this report.
   settings->render.load.missing_is_error = false;
-  Option scene = positional(
-      "SCENE", settings->render.scene,
-      "Scene, .gltf or .glb, or a rendered .exr; without it: version, ISA, threads, Embree, denoiser, "
-      "Vulkan devices");
+  Option scene = positional("SCENE", settings->render.scene,
+                            "Scene, .gltf or .glb, or a rendered .exr. Without it, print version, ISA, "
+                            "threads, Embree, denoiser and Vulkan devices");
   scene.required = false;
   std::vector<Option> options = {scene};
   OptionGroup output{options, "Output"};
-  output.add(any_word("json", settings->json, "FILE|-", "The same as JSON; - is stdout"), {.common = true});
+  output.add(any_word("json", settings->json, "FILE|-", "Write the description as JSON; - is stdout"),
+             {.common = true});
   output.add(
       toggle("command", settings->command, "Print only the command line that made PICTURE.exr, for a shell"),
       {.common = true});

@@ -24,10 +24,10 @@ namespace gatelight::apps {
 namespace {
 
 constexpr const char* kMergeFooter =
-    R"(For a reference in parts: each is rendered with a seed of its own, on any day and machine. The mean is weighted by the
-samples per pixel of each file (gatelight:spp in its header), and its header has their sum. Size, layers and integrator
-must be the same, and all values finite. Sample counts are added up, variance becomes that of the mean, and ids and
-Cryptomattes are those of the first file.
+    R"(Use it for a reference that is rendered in parts, each with a different seed, at any time and on any machine. The mean
+is weighted by the samples per pixel of each file (gatelight:spp in its header); the new header contains their sum.
+Size, layers and integrator must be the same, and all values finite. Sample counts are added, variance becomes that of
+the mean, and ids and Cryptomattes are those of the first file.
 
 Example:
   for seed in 1 2 3 4; do gatelight render room.glb -o part-$seed.exr --exr float --spp 256 --seed $seed; done

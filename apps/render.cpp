@@ -19,9 +19,9 @@ namespace {
 
 constexpr const char* kRenderFooter =
     R"(SIGINT, SIGTERM and SIGHUP finish the current pass and write the picture so far (exit code 130, 143 or 129); a second
-one ends the program at once. SIGUSR1 writes a snapshot of all files of -o.
-Any flag can stand in a file given with --config FILE.toml, as "spp = 256" or "eye = [1, 2, 3]".
-Intensities of KHR_lights_punctual are taken as radiometric numbers: W/sr (point, spot) and W/m2 (directional).
+one ends the program at once. SIGUSR1 writes the picture so far to all files of -o and continues.
+--config FILE.toml reads flags from a file with lines such as "spp = 256" or "eye = [1, 2, 3]".
+Intensities of KHR_lights_punctual are read as radiometric values: W/sr (point, spot) and W/m2 (directional).
 
 Examples:
   gatelight render room.glb -o room.exr -o room.png --spp 256 --size 1920x1080

@@ -17,48 +17,48 @@ namespace gatelight::apps {
 namespace {
 
 constexpr const char* kSweepFooter =
-    R"(Every combination of the lists is a line in the plots, and each of its step counts is a cell: one picture, compared
-with a reference. One training gives the pictures of all its step counts. For each integrator with a cache the one
-without is measured too (path for nrc, ao for nao). Any other flag of 'gatelight render' that decides a picture can be
-given and applies to all cells (--size, --camera, --batch ...; see its --help). A flag without effect in a cell, such as
---features with a hash grid, is left out there, and equal cells are made once. Lists are separated by commas, or by
-semicolons where a value holds commas: --stack "adaptive,1;adaptive,adaptive/3,1".
+    R"(A sweep renders all combinations of the listed values and compares them with a reference. A combination is a line in the
+plots, and each of its step counts is a cell with one picture. One training run gives the pictures of all step counts.
+For each integrator with a cache, the integrator without one is measured too (path for nrc, ao for nao). Any other flag
+of 'gatelight render' that affects the picture can be given and applies to all cells (--size, --camera, --batch, ...;
+see its --help). Flags without effect in a cell, such as --features with a hash grid, are left out, and identical cells
+are rendered once. Commas separate the values of a list; semicolons do if the values contain commas: --stack
+"adaptive,1;adaptive,adaptive/3,1".
 
-With --run and --plan pictures have names and flags of their own, as 'gatelight render' has them; flags for all cells
-and axes apply where a run does not set them. Beside them the integrator without a cache is measured at the samples of
---spp, as traced and, for denoised runs, denoised.
+--run and --plan define named runs with their own flags of 'gatelight render'. Other flags and axes apply to a run
+unless it sets them. For comparison, the integrator without a cache is measured with the samples of --spp, as traced
+and, if a run is denoised, also denoised.
 
-Without --preset, an axis, --vary, --run, --plan, --denoiser, --view, --query-at and --cache-holds, a sweep compares
-these by error and time: 'path' as traced and 'path denoised' at the samples of --spp; 'nrc bare', which is --preset
-bare after 8 to 1024 steps; and 'nrc standard', the finished pictures of --preset standard after 128, 512 and 2048 steps
-with 2, 7 and 28 samples. Wherever a cell with a cache is denoised, the integrator without one is measured both as
-traced and denoised. Time counts all phases: scouting, training, rendering, denoising.
+By default (without --preset, an axis, --vary, --run, --plan, --denoiser, --view, --query-at and --cache-holds), a sweep
+compares 'path' as traced and 'path denoised', with the samples of --spp; 'nrc bare', which is --preset bare after 8 to
+1024 steps; and 'nrc standard', which is --preset standard after 128, 512 and 2048 steps with 2, 7 and 28 samples. If a
+cell with a cache is denoised, the integrator without one is measured as traced and denoised. Times include all phases:
+scouting, training, rendering and denoising.
 
-DIR has results.csv and results.json (all cells of this call), results.md (tables of means over the seeds, and how many
-times less time than the integrator without a cache they take for the same error), report.html (charts, pictures and
-tables of the cells: one file that opens offline), pictures and FLIP maps of the first seed, references,
-gate-memory.json (bytes for same-as-gate), and cells/, a file for each cell that is done or has failed. The same command
-continues where it was stopped: it makes missing and failed cells, but none that is done. Cells are identified by the
-scene's content, all options, the processor and its instruction set, so that a DIR can serve several sweeps, one at a
-time. A cell that fails is reported, and the others continue; the exit code is 7 then. SIGINT, SIGTERM and SIGHUP end
-the sweep after writing the results so far (130, 143 or 129).
+DIR contains results.csv and results.json (all cells of this call), results.md (means over the seeds, and the speed-up
+over the integrator without a cache at the same error), report.html (charts, pictures and tables in one file that opens
+offline), pictures and FLIP maps of the first seed, references, gate-memory.json (bytes for same-as-gate), and cells/ (a
+file for each finished or failed cell). To continue a stopped sweep, repeat the command: it renders only missing and
+failed cells. A cell is identified by the content of the scene, all options, the processor and its instruction set, so
+several sweeps can share a DIR, one at a time. If a cell fails, the sweep reports it and continues; the exit code is
+then 7. SIGINT, SIGTERM and SIGHUP end the sweep after writing the results so far (exit code 130, 143 or 129).
 
 With --keep-exr, two seeds and two halves of a reference, errors_bias_rel_mse of the second seed is the squared bias of
-the pair: the part of rel_mse that more samples would not remove ('gatelight compare --halves'). A reference in
---reference-dir is KEY_a.exr and KEY_b.exr, its halves, and KEY.exr and KEY.json, made of them; what is there is used.
+the pair: the part of rel_mse that more samples do not remove ('gatelight compare --halves'). --reference-dir contains
+the halves of a reference, KEY_a.exr and KEY_b.exr, and KEY.exr and KEY.json, which are computed from them. References
+that exist are not rendered again.
 
-Preset of finished pictures (2 seeds; paths with 4, 8, 32 and 128 samples unless --spp is given):
+Preset for finished pictures (2 seeds; paths with 4, 8, 32 and 128 samples unless --spp is given):
   finished        --preset preview, standard and final of 'gatelight render', as named runs
-Presets of the paper (3 seeds, 1920x1080 unless --size is given; flags override them, except those that a row is named
-after):
-  paper-table1    GATE and the hash grid at the same memory, 128 steps
-  paper-table2    the hash grid with GATE's memory, a half of it, and 0.91 MiB
-  paper-steps     the same as table 1 from 8 to 128 steps
-  paper-adaptive  resolution 4 everywhere against adaptive ones
-  paper-inputs    with and without normal and albedo
-  paper-extra     storage, counters, candidates, precision, stacks, clusters, place of queries, what the cache stores
-Those of 'gatelight render' (bare, preview, standard, final, paper-nao, paper-nrc) stand for their flags. Several of them are
-an axis: --vary preset=preview,standard.
+Presets of the paper (3 seeds; 1920x1080 unless --size is given; flags override them, except those that define a row):
+  paper-table1    GATE and the hash grid with equal memory, 128 steps
+  paper-table2    the hash grid with the memory of GATE, half of it, and 0.91 MiB
+  paper-steps     table 1 with 8 to 128 steps
+  paper-adaptive  resolution 4 everywhere, compared with adaptive resolutions
+  paper-inputs    with and without normal and albedo as inputs
+  paper-extra     storage, counters, candidates, precision, stacks, clusters, place of queries, stored light
+Presets of 'gatelight render' (bare, preview, standard, final, paper-nao, paper-nrc) set its flags. To compare several
+of them, vary them: --vary preset=preview,standard.
 
 Examples:
   gatelight sweep kitchen.glb -o kitchen
@@ -88,8 +88,8 @@ void add_axes(std::vector<Option>& table, SweepArguments& words) {
                         std::string& text) {
     axes.add(any_word(name, text, unit, help)).default_text = default_text;
   };
-  kept("train-steps", "LIST", "Training steps, all from one training", "8,16,32,64,128,256,512,1024",
-       words.train_steps);
+  kept("train-steps", "LIST", "Training step counts; one training run passes through all of them",
+       "8,16,32,64,128,256,512,1024", words.train_steps);
   for (const AxisFlag& flag : kAxisFlags) {
     axes.add({.name = flag.name + 2,
               .unit = "LIST",
@@ -98,17 +98,16 @@ void add_axes(std::vector<Option>& table, SweepArguments& words) {
               .default_text = flag.default_text});
   }
   axes.add(any_words("vary", words.vary, "NAME=LIST",
-                     "Any other flag of render as an axis; may be given several times"));
+                     "Vary any other flag of render; may be given several times"));
   axes.add(any_words("run", words.runs, "'NAME: FLAGS'",
-                     "A picture with flags of render of its own; may be given several times"));
-  axes.add(any_words("plan", words.plans, "FILE", "Such runs, one a line; # begins a comment"));
+                     "A named run with its own flags of render; may be given several times"));
+  axes.add(any_words("plan", words.plans, "FILE", "File with such runs, one per line; # starts a comment"));
   axes.add(any_words("for", words.scene_flags, "SCENE:NAME=VALUE",
                      "A flag for one scene only; may be given several times"));
-  kept("seeds", "N", "Seeds, from --seed (1) on", "1", words.seeds);
+  kept("seeds", "N", "Number of seeds; the first one is --seed (1)", "1", words.seeds);
   kept("spp", "LIST", "Samples per pixel of integrators without a cache", "1,4,16,64", words.spp);
-  axes.add(
-      toggle("no-plain", words.no_plain, "Do not measure integrators without a cache beside those with one"));
-  const std::string help = fmt::format("Axes and flags at once: {}", fmt::join(sweep_preset_names(), ", "));
+  axes.add(toggle("no-plain", words.no_plain, "Do not measure integrators without a cache for comparison"));
+  const std::string help = fmt::format("Set axes and flags: {}", fmt::join(sweep_preset_names(), ", "));
   axes.add(any_word("preset", words.preset, "NAME", help.c_str()));
 }
 
@@ -116,46 +115,46 @@ void add_reference_options(std::vector<Option>& table, SweepSettings& s) {
   OptionGroup references{table, "References"};
   references.add(
       any_words("reference", s.reference_files, "FILE",
-                "Compare with this picture; for one scene and one kind of picture. Given twice, the "
-                "files are two halves with different seeds, and give its noise"));
-  references.add(
-      {.name = "reference-spp",
-       .unit = "N",
-       .help = "Samples per pixel of rendered references: two halves, whose difference gives their noise",
-       .read =
-           [&s](const std::string& text) {
-             const std::int64_t spp = parse_integer("reference-spp", text, kReferenceSpp);
-             s.reference_spp = static_cast<int>(spp + spp % 2);
-           },
-       .default_text = "1024"});
+                "Reference picture, for sweeps with one scene and one kind of picture. If given twice, the "
+                "files are two halves with different seeds, whose difference gives the noise"));
+  references.add({.name = "reference-spp",
+                  .unit = "N",
+                  .help = "Samples per pixel of rendered references. They are rendered as two halves, whose "
+                          "difference gives the noise",
+                  .read =
+                      [&s](const std::string& text) {
+                        const std::int64_t spp = parse_integer("reference-spp", text, kReferenceSpp);
+                        s.reference_spp = static_cast<int>(spp + spp % 2);
+                      },
+                  .default_text = "1024"});
   references.add(any_word("reference-dir", s.reference_folder, "DIR",
                           "Folder of rendered references (default: references in DIR)"));
-  references.add(choice("hdr-flip", s.hdr_flip, kOnOff, "Measure HDR-FLIP of radiance, too"));
+  references.add(choice("hdr-flip", s.hdr_flip, kOnOff, "Also measure HDR-FLIP of radiance"));
 }
 
 void add_advice_options(std::vector<Option>& table, SweepSettings& s) {
   OptionGroup advice{table, "Advice"};
-  advice.add(toggle("advise", s.advise,
-                    "Name the fastest configuration within the limits, on stdout. Without SCENE it uses the "
-                    "results in DIR"));
+  advice.add(toggle(
+      "advise", s.advise,
+      "Print the fastest configuration within the limits on stdout. Without SCENE, use the results in DIR"));
   advice.add(number_or("", "max-error", s.limits.max_error, kErrors, "FLIP",
-                       "Largest mean FLIP of a picture, with every seed"));
+                       "Largest mean FLIP of a picture, for each seed"));
   advice.add(number_or("", "max-time", s.limits.max_seconds, kPositive, "SECONDS",
-                       "Longest time to train and render"));
+                       "Longest time for training and rendering"));
 }
 
 void add_folder_options(std::vector<Option>& table, SweepSettings& s) {
   OptionGroup output{table, "Output"};
-  Option& folder = output.add(
-      any_word("output", s.folder, "DIR", "Folder of the results; it is made if it does not exist"));
+  Option& folder =
+      output.add(any_word("output", s.folder, "DIR", "Folder for the results; created if it does not exist"));
   folder.letter = "-o";
   folder.required = true;
   output.add(toggle("keep-exr", s.keep_exr,
-                    "Keep every picture as EXR too, and measure the squared bias of each pair of seeds"));
-  output.add(toggle("dry-run", s.dry_run, "Print the plan and stop"));
+                    "Also keep each picture as EXR, and measure the squared bias of each pair of seeds"));
+  output.add(toggle("dry-run", s.dry_run, "Print the plan without rendering"));
   output.add(progress_option(s.progress));
   output.add(toggle("quiet", s.quiet, "Print errors only"));
-  output.add(toggle("verbose", s.verbose, "Print more: all options of each run"));
+  output.add(toggle("verbose", s.verbose, "Also print all options of each run"));
 }
 
 /// Flags of render; they are not in the help.
@@ -215,8 +214,8 @@ void check(const SweepCall& call, const CLI::App& app) {
 }  // namespace
 
 Subcommand add_sweep_command(CLI::App& root, const std::vector<std::string>& command) {
-  CLI::App* app =
-      add_subcommand(root, "sweep", "Measure error against time and steps over options", kSweepFooter);
+  CLI::App* app = add_subcommand(
+      root, "sweep", "Measure error against time and steps for combinations of options", kSweepFooter);
   const auto call = std::make_shared<SweepCall>();
   add_flags(*app, option_table(*call));
   return {.app = app, .run = [call, command, app] {

@@ -25,9 +25,9 @@ namespace gatelight::apps {
 namespace {
 
 constexpr const char* kViewFooter =
-    R"(Opens a page in the browser on this machine. It shows the scene and refines the picture while nothing changes, to the
-very picture that `gatelight render` gives with the same flags (--preset final, if neither a preset nor an integrator is
-given). A finished picture is shown in the same page. Drag to turn the view; "?" lists the keys. The page saves EXR and
+    R"(Opens a page in the browser on this machine. It shows the scene and, while nothing changes, refines the picture until it
+equals that of `gatelight render` with the same flags (with --preset final, unless a preset or an integrator is given).
+Finished pictures are shown in the same page. Drag to turn the view; "?" lists the keys. The page saves EXR and
 PNG, and copies the command of the picture. The server answers only this machine, and only under the printed address.
 
 Examples:
@@ -58,9 +58,9 @@ std::vector<Option> window_options(WindowSettings& window) {
     if (option.positional) option.help = "Scene (.gltf, .glb) or finished picture";
   }
   OptionGroup group{table, "Window"};
-  group.add(number("port", window.port, {0, 65535}, "N", "Port of this machine; 0: any free one"),
+  group.add(number("port", window.port, {0, 65535}, "N", "Port of the server; 0: any free port"),
             {.common = true});
-  group.add(toggle("no-browser", window.no_browser, "Print the address and open no browser"),
+  group.add(toggle("no-browser", window.no_browser, "Print the address without opening a browser"),
             {.common = true});
   return table;
 }
@@ -118,7 +118,7 @@ int run_view(const WindowSettings& window) {
 
 Subcommand add_view_command(CLI::App& root) {
   CLI::App* app =
-      add_subcommand(root, "view", "Show a scene in the browser, and change its view and light", kViewFooter);
+      add_subcommand(root, "view", "Show a scene in the browser and change its view and light", kViewFooter);
   const auto window = std::make_shared<WindowSettings>();
   const std::vector<Option> options = window_options(*window);
   add_flags(*app, options);

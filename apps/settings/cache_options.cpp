@@ -118,28 +118,28 @@ std::string read_device(const std::string& option, const std::string& text) {
 
 void add_self_training_options(OptionGroup& group, SelfTrainingOptions& options) {
   auto& [start_step, vertices, full_fraction, attenuation] = options;
-  group.add(
-      {.name = "self-training",
-       .unit = "STEP|off",
-       .help = "First step whose training paths end in the cache's own answer; off: all run to their end",
-       .value = [&options]() -> OptionValue {
-         if (options.start_step < 0) return "off";
-         return value_of(options.start_step);
-       },
-       .read =
-           [&options](const std::string& text) {
-             options.start_step =
-                 text == "off" ? -1 : static_cast<int>(parse_integer("self-training", text, kSteps));
-           }},
-      {.needs = {kNrc}});
+  group.add({.name = "self-training",
+             .unit = "STEP|off",
+             .help = "First step whose training paths end with an answer of the cache itself; off: all paths "
+                     "are traced to their end",
+             .value = [&options]() -> OptionValue {
+               if (options.start_step < 0) return "off";
+               return value_of(options.start_step);
+             },
+             .read =
+                 [&options](const std::string& text) {
+                   options.start_step =
+                       text == "off" ? -1 : static_cast<int>(parse_integer("self-training", text, kSteps));
+                 }},
+            {.needs = {kNrc}});
   group.add(number("self-training-vertices", vertices, kPaths, "N",
                    "Vertices that become records before the cache answers for the rest of the path"),
             {.needs = {kNrc, kSelfTraining}});
   group.add(number("self-training-full", full_fraction, kFraction, "FRACTION",
-                   "Part of the training paths that still run to their end, 0 to 1"),
+                   "Share of the training paths that are still traced to their end, 0 to 1"),
             {.needs = {kNrc, kSelfTraining}});
   group.add(number("self-training-attenuation", attenuation, kFraction, "FACTOR",
-                   "Multiplies the cache's answer at the end of a training path, 0 to 1"),
+                   "Factor of the cache's answer at the end of a training path, 0 to 1"),
             {.needs = {kNrc, kSelfTraining}});
 }
 
@@ -154,16 +154,17 @@ void add_training_options(OptionGroup& group, neural::TrainingOptions& options) 
   };
   add(number("learning-rate", learning_rate, kNotNegative, "X", "Size of a training step (of Adam)"));
   add(number("learning-decay", decay_steps, kNotNegative, "STEPS",
-             "The learning rate falls with 1/sqrt(1 + step/STEPS); 0: it stays"));
-  add(choice("loss", loss, "Squared error, as it is or relative to the squared luminance of the answer"));
-  add(choice("update", update, "Which feature vectors a step changes: those that its records touch, or all"));
+             "The learning rate falls with 1/sqrt(1 + step/STEPS); 0: it is constant"));
+  add(choice("loss", loss, "Squared error, absolute or relative to the squared luminance of the answer"));
+  add(choice("update", update,
+             "Feature vectors that a step changes: those that its records read (sparse), or all (dense)"));
   add(choice("feature-step", feature_step,
-             "Step count of a feature vector (for Adam): its own, or that of its triangles as in the "
-             "paper"),
+             "Step count of a feature vector (for Adam): counted for each vector, or for each triangle as in "
+             "the paper"),
       {kGate});
   Option& averaged =
       add(choice("average", average_network, kOnOff,
-                 "Answer with a running average of features and weights instead of the last ones"));
+                 "Answer with running averages of features and weights instead of the latest values"));
   averaged.read = [&options = average, read = averaged.read](const std::string& text) {
     read(text);
     options.features = options.network;
@@ -172,31 +173,31 @@ void add_training_options(OptionGroup& group, neural::TrainingOptions& options) 
 
 void add_learning_options(std::vector<Option>& table, CacheOptions& options) {
   OptionGroup group{table, "Cache, learning"};
-  group.add(number_or("auto", "train-steps", options.train_steps, kSteps, "N",
-                      "Training steps before the picture; auto: by its pixels and samples; 0: none"),
-            {.common = true});
+  group.add(
+      number_or("auto", "train-steps", options.train_steps, kSteps, "N",
+                "Training steps before rendering; auto: from the picture's pixels and samples; 0: none"),
+      {.common = true});
   group.add(number("train-time", options.train_seconds, kNotNegative, "SECONDS",
-                   "No further step after this time of training; 0: no limit"),
+                   "Start no further training step after this time; 0: no limit"),
             {.in_sweep = false});
   group.add(number("batch", options.batch, {1, 1 << 24}, "N",
-                   "Records (points with their light) in a training step"),
+                   "Records (surface points with their light) in a training step"),
             {.of_field = true});
-  group.add(
-      number("train-path-length", options.path_length, {0, 65536}, "N",
-             "0: only Russian roulette ends a training path, and each vertex becomes a record; N: paths "
-             "of N segments, and only the first vertex does, as in the paper"),
-      {.needs = {kNrc}});
+  group.add(number("train-path-length", options.path_length, {0, 65536}, "N",
+                   "0: only Russian roulette ends a training path, and each vertex becomes a record; N: a "
+                   "path has N segments, and only its first vertex becomes a record, as in the paper"),
+            {.needs = {kNrc}});
   group.add(number("samples-per-point", options.samples_per_point, kPaths, "N",
-                   "Paths whose mean becomes the record of a training point"));
+                   "Number of paths that are averaged for the record of a training point"));
   group.add(choice("training-points", options.source,
-                   "Where training paths start: as samples that stay in the picture, at hits of camera "
-                   "rays, or anywhere on the surfaces"));
+                   "Training paths are samples that stay in the picture (picture), or start at hits of "
+                   "camera rays (camera) or anywhere on the surfaces (surface)"));
   group.add(number("samples-from-step", options.samples_from_step, kSteps, "N",
-                   "First step whose paths are samples that stay in the picture; they end in the cache as "
-                   "it is then"),
+                   "First training step whose paths stay in the picture as samples; they end with answers of "
+                   "the cache at that step"),
             {.needs = {kPicturePoints}});
   group.add(number("candidates", options.candidates, {1, 1024}, "M",
-                   "Candidates for each training point; with more, triangles are trained more evenly"),
+                   "Candidates for each training point; more candidates train triangles more evenly"),
             {.needs = {kTriangles}});
   add_self_training_options(group, options.self_training);
   add_training_options(group, options.training);
@@ -208,27 +209,27 @@ void add_gate_options(OptionGroup& group, neural::GateOptions& options, std::opt
   const auto add = [&](Option option, std::vector<Requirement> needs = {kGate}) {
     group.add(std::move(option), {.of_field = true, .needs = std::move(needs)});
   };
-  add(number("features", features, kFeatures, "L", "gate: numbers in a feature vector"));
+  add(number("features", features, kFeatures, "L", "gate: length of a feature vector"));
   add(read_by("stack", stack, "LIST",
-              "gate: resolutions of the levels, separated by commas, at most 4; 'adaptive' is the "
-              "result of --resolution, 'adaptive/4' a fourth of it",
+              "gate: resolutions of the levels, separated by commas, at most 4; 'adaptive' is the result of "
+              "--resolution, 'adaptive/4' a quarter of it",
               neural::stack_text, read_stack));
   add({.name = "resolution",
        .unit = "uniform|paper|fixed:R",
-       .help = "gate: feature vectors along a triangle's edge, for each instance: by --node-spacing, by the "
-               "paper's rule, or R everywhere",
+       .help = "gate: number of feature vectors along a triangle's edge, for each instance: from "
+               "--node-spacing, by the paper's rule, or R everywhere",
        .value = [&options] { return resolution_text(options); },
        .read = [&options](const std::string& text) { read_resolution(text, options); }});
-  add(number("resolution-scale", resolution_scale, kPositive, "X", "gate: factor of the paper's rule"),
+  add(number("resolution-scale", resolution_scale, kPositive, "X", "gate: factor in the paper's rule"),
       {kGate, kPaperRule});
   add(number_or("auto", "node-spacing", spacing, kPositive, "METRES",
-                "gate: distance between feature vectors; auto: by the width of pixels on the surfaces"),
+                "gate: distance between feature vectors; auto: from the width of pixels on the surfaces"),
       {kGate, kUniformRule});
   add(number("max-resolution", max_resolution, kResolution, "R", "gate: largest adaptive resolution"));
   add(choice("cluster", cluster, kAutoOff,
              "gate: share feature vectors where triangles are smaller than the node spacing"));
   add(choice("storage", storage,
-             "gate: feature vectors on common edges and corners are shared by the triangles, or not"));
+             "gate: triangles share the feature vectors on common edges and corners, or have their own"));
 }
 
 void add_hash_grid_options(OptionGroup& group, neural::HashGridOptions& options) {
@@ -243,17 +244,17 @@ void add_hash_grid_options(OptionGroup& group, neural::HashGridOptions& options)
              "hashgrid: a level has at most 2^N entries; --cache-memory overrides it"));
   add(number("hash-base", base_resolution, {1, 1 << 20}, "N", "hashgrid: resolution of the first level"));
   add(number("hash-growth", growth, {1.0, 1024.0}, "X",
-             "hashgrid: factor of the resolution from level to level"));
+             "hashgrid: ratio of the resolutions of successive levels"));
 }
 
 void add_shape_options(std::vector<Option>& table, CacheOptions& options) {
   auto& [width, hidden_layers, outputs, leaky_slope, biases] = options.mlp;
-  OptionGroup group{table, "Cache, what it is"};
+  OptionGroup group{table, "Cache, model"};
   const auto add = [&](Option option) { group.add(std::move(option), {.of_field = true}); };
   add(choice("encoding", options.encoding,
              // The first encodes nothing.
              Choices<FeatureEncoding>(kEnumNames<FeatureEncoding>).subspan(1),
-             "Where features lie: on the triangles, or in a hash grid in space"));
+             "Location of the features: on the triangles, or in a hash grid in space"));
   add_gate_options(group, options.gate, options.node_spacing);
   add_hash_grid_options(group, options.hash_grid);
   const auto read_memory = [&options](const std::string& text) {
@@ -262,54 +263,54 @@ void add_shape_options(std::vector<Option>& table, CacheOptions& options) {
   };
   add({.name = "cache-memory",
        .unit = "MIB",
-       .help = "Largest memory of the features, in MiB; they are as fine as fits; 0: no limit",
+       .help = "Memory limit of the features in MiB; within it, they are as fine as possible; 0: no limit",
        .value = [&options] { return static_cast<double>(options.memory_bytes) / 1048576.0; },
        .read = read_memory});
   add(choice("feature-precision", options.training.precision,
-             "fp16: features are read as 16 bits but trained as 32; fp16-only: half the memory in "
-             "training too"));
+             "fp16: queries read features of 16 bits, training changes copies of 32 bits; fp16-only: 16 bits "
+             "in training too, for half the memory"));
   add(choice("hidden", width, kHiddenWidths, "Width of the network's hidden layers"));
   add(number("layers", hidden_layers, {1, neural::kMaxLayers - 1}, "N", "Hidden layers of the network"));
   add(choice("bias", biases, kOnOff, "Whether the network's layers have biases"));
-  group.add(
-      choice("direction-input", options.direction_input, kInputs,
-             "The network reads the direction of view; auto: where a material of the scene depends on it "
-             "and --cache-roughness is below 0.5"),
-      {.needs = {kNrc}});
+  group.add(choice("direction-input", options.direction_input, kInputs,
+                   "Whether the network reads the view direction; auto: if a material of the scene depends "
+                   "on it and --cache-roughness is below 0.5"),
+            {.needs = {kNrc}});
   add(choice("normal-input", options.normal_input, kInputs,
-             "The network reads the normal; auto: yes, but as in the paper where gate has --resolution "
-             "paper"));
+             "Whether the network reads the normal; auto: yes, but not for gate with --resolution paper, as "
+             "in the paper"));
   group.add(choice("albedo-input", options.albedo_input, kInputs,
-                   "The network reads the albedo; auto: with the hash grid"),
+                   "Whether the network reads the albedo; auto: only with the hash grid"),
             {.needs = {kNrcOrHashGrid}});
-  group.add(choice("scout", options.scout, kOnOff,
-                   "Trace some paths first and keep features only for the sides of instances that they hit"));
+  group.add(
+      choice("scout", options.scout, kOnOff,
+             "Trace some paths first, and store features only for the sides of instances that they hit"));
 }
 
 void add_answer_options(std::vector<Option>& table, CacheOptions& options) {
   OptionGroup group{table, "Cache, answers"};
   group.add(choice("cache-holds", options.component,
-                   "Reflected light that the cache stores: all, all but direct light of point, spot and "
-                   "directional lights, or indirect light only"),
+                   "Reflected light that the cache stores: all; all except direct light of point, spot and "
+                   "directional lights; or indirect light only"),
             {.needs = {kNrc}});
-  group.add(
-      choice(
-          "query-at", options.query_at,
-          "Where a path ends in the cache's answer: first hit (fast), next hit after a wide scattering event "
-          "(accurate), where the path has spread out, or nowhere"),
-      {.needs = {kNrc, kFinalView}});
+  group.add(choice("query-at", options.query_at,
+                   "Where a path ends with the cache's answer: at the first hit (fast), at the hit after a "
+                   "wide scattering event (accurate), once the path has spread out, or nowhere"),
+            {.needs = {kNrc, kFinalView}});
   group.add(
       choice("view", options.view,
-             "final: the picture; cache: the bare answer at the first hit, without emission and reflectance"),
+             "final: the picture; cache: only the answer at the first hit, without emission and reflectance"),
       {.needs = {kNrc}});
-  group.add(number("cache-roughness", options.min_roughness, kFraction, "X",
-                   "Reflections at least this rough come from the cache, sharper ones are traced, 0 to 1"),
-            {.needs = {kNrc}});
+  group.add(
+      number("cache-roughness", options.min_roughness, kFraction, "X",
+             "Reflections of at least this roughness come from the cache; sharper ones are traced; 0 to 1"),
+      {.needs = {kNrc}});
   group.add(number("spread-threshold", options.spread_threshold, kNotNegative, "X",
-                   "For --query-at spread: spread of the path over that of its first segment; more is later"),
+                   "For --query-at spread: ratio of the path's spread to that of its first segment; paths "
+                   "end later with a larger ratio"),
             {.needs = {kNrc, kSpread}});
   group.add(choice("query-precision", options.bf16_queries, kPrecisions,
-                   "Arithmetic of answers in the picture; bf16 is faster where the processor has it"),
+                   "Arithmetic of answers in the picture; bf16 is faster if the processor supports it"),
             {.of_field = true});
   group.add(
       read_by(
@@ -336,10 +337,10 @@ void add_cache_options(std::vector<Option>& table, CacheOptions& options) {
 void add_cache_file_options(std::vector<Option>& table, CacheOptions& options) {
   OptionGroup files{table, "Files"};
   files.add(any_word("cache-in", options.cache_in, "FILE",
-                     "Start from a cache that --cache-out wrote, of the same scene and cache flags"),
+                     "Start from a cache that --cache-out wrote for the same scene and cache flags"),
             {.common = true, .in_sweep = false, .of_cache = true});
   files.add(
-      any_word("cache-out", options.cache_out, "FILE", "Write the trained cache, .safetensors"),
+      any_word("cache-out", options.cache_out, "FILE", "Write the trained cache to a .safetensors file"),
       {.common = true, .in_sweep = false, .of_cache = true, .in_recipe = InRecipe::unless_reproducible});
 }
 

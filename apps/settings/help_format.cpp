@@ -57,7 +57,7 @@ class HelpFormatter final : public CLI::Formatter {
   }
 };
 
-/// "Cache, what it is": cache, what, it, is.
+/// "Cache, learning": cache, learning.
 std::vector<std::string> words_of(const std::string& group) {
   std::string text = CLI::detail::to_lower(group);
   std::replace(text.begin(), text.end(), ',', ' ');
@@ -127,7 +127,7 @@ std::string help_text(CLI::App& app, const std::string& program, const std::set<
     const int hidden =
         hide(app, [&](const CLI::Option& option) { return common.contains(option.get_lnames().front()); });
     app.footer(
-        fmt::format("{} more flags: --help-all shows all, --help TOPIC those of one of these:\n  {}\n\n{}",
+        fmt::format("{} more flags: --help-all shows all, --help TOPIC shows those of a topic:\n  {}\n\n{}",
                     hidden, topics, app.get_footer()));
   }
   return app.help(program);

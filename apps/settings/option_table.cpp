@@ -41,16 +41,15 @@ void add_call_options(OptionGroup& group, RenderSettings& settings) {
     marks.in_recipe = InRecipe::never;
     group.add(std::move(option), std::move(marks));
   };
-  add(toggle("skip-existing", skip_existing,
-             "Leave out frames, and cameras, whose pictures are there already"),
+  add(toggle("skip-existing", skip_existing, "Skip frames and cameras whose pictures already exist"),
       {.stage = OptionStage::program});
-  add(toggle(
-      "reproducible", reproducible,
-      "Leave times, threads and the command line out of the EXR header: equal renders give equal files"));
-  add(any_word("stats", stats, "FILE|-", "Statistics as JSON; - is stdout"), {.common = true});
+  add(toggle("reproducible", reproducible,
+             "Omit times, threads and the command line from the EXR header, so that equal renders give equal "
+             "files"));
+  add(any_word("stats", stats, "FILE|-", "Write statistics as JSON; - is stdout"), {.common = true});
   add(progress_option(progress), {.common = true});
   add(toggle("quiet", quiet, "Print errors only"), {.common = true});
-  add(toggle("verbose", verbose, "Print more: what was loaded, the memory needed, all options"));
+  add(toggle("verbose", verbose, "Also print what was loaded, the memory needed and all options"));
 }
 
 /// A part of the view of --eye. Recipes have the complete view.
@@ -75,36 +74,36 @@ void add_load_options(OptionGroup& group, scene::LoadOptions& load) {
     marks.stage = OptionStage::load;
     return group.add(std::move(option), std::move(marks));
   };
-  add(number("scene-index", scene, kScenes, "N", "Which scene of the file; -1: its default"));
+  add(number("scene-index", scene, kScenes, "N", "Index of a scene in the file; -1: the file's default"));
   add(any_word("variant", variant, "NAME", "Material variant of the file, by name"), {.common = true}).value =
       [&load] { return load.variant; };
   add(number_or("", "time", time, kSeconds, "SECONDS",
-                "Moment of the file's animations; else the pose of its nodes"),
+                "Time at which to show the file's animations; without it, nodes keep their static pose"),
       {.common = true, .in_window = true});
   add(any_word("animation", animation, "NAME|INDEX|none",
-               "Animation that --time shows; else all of the file together, but of those that animate the "
-               "same value only the first"),
+               "Animation to show (default: all; if several animate the same value, only the first does)"),
       {.in_window = true});
   add(toggle("show-hidden", show_hidden, "Show nodes that the file hides (KHR_node_visibility)"));
-  add(choice(
-      "backfaces", back_faces, kBackFaces,
-      "Back faces of materials that are not doubleSided: reflect but do not emit (show), let rays pass as "
-      "glTF wants it (cull), or emit too (light); files with walls of one side would lose them by culling"));
+  add(choice("backfaces", back_faces, kBackFaces,
+             "Back faces of materials that are not doubleSided: they reflect but do not emit (show), let "
+             "rays pass as glTF specifies (cull), or reflect and emit (light). With cull, one-sided walls "
+             "are invisible from behind"));
   add(read_by("lights", lights, "NAME=off|X|r,g,b;...",
-              "Lights and emissive materials of the file, by name, switched off or multiplied; a '*' at the "
-              "end of a name fits any ending, and the last that fits a light counts: \"*=off;lamp=2\"",
+              "Switch off or multiply lights and emissive materials of the file, by name: \"*=off;lamp=2\". "
+              "A '*' at the end of a name matches any ending; for each light, the last match applies",
               list_value, read_lights),
       {.in_window = true});
-  add(read_by("ies", profiles, "NAME=FILE;...",
-              "Profiles of IES files (LM-63, type C) for point and spot lights of the file, by name as in "
-              "--lights. The light aims along its node's -z, keeps its intensity in the brightest direction, "
-              "and loses its cone",
-              list_value, read_profiles));
-  add(choice("missing", missing_is_error, kMissing, "When a texture cannot be read"));
+  add(read_by(
+      "ies", profiles, "NAME=FILE;...",
+      "IES profiles (LM-63, type C) for point and spot lights of the file, by name as in --lights. The light "
+      "points along its node's -z, keeps its intensity in the brightest direction, and loses its cone",
+      list_value, read_profiles));
+  add(choice("missing", missing_is_error, kMissing,
+             "Whether an unreadable texture is an error or a warning"));
   add(external_option(allow_external));
   add(read_by(
       "ignore-required", ignored, "NAME,...",
-      "Extensions of glTF that the file may require although they are not supported: they are left out",
+      "Load the file although it requires these unsupported glTF extensions, and ignore them",
       [](const std::vector<std::string>& names) -> OptionValue {
         return names.empty() ? OptionValue() : fmt::format("{}", fmt::join(names, ","));
       },
@@ -123,24 +122,25 @@ void add_frame_options(OptionGroup& group, FrameSettings& frames) {
   };
   add(read_by(
           "frames", range, "A:B[:STEP]",
-          "Frames, or a list as 1,3,5-9, each to its own file: -o frame-%04d.exr, #### or {frame}",
+          "Frames, or a list such as 1,3,5-9; -o contains %04d, #### or {frame} for the number",
           [](const std::optional<FrameList>& chosen) { return text_of(*chosen); }, parse_frames),
       {.common = true});
   add(read_by(
-      "fps", fps, "N", "Frames of a second: frame n shows the time n / N; also 30000/1001",
+      "fps", fps, "N",
+      "Frames per second: frame n shows the time n / N. Fractions such as 30000/1001 are allowed",
       [](double chosen) { return chosen; }, parse_fps));
   add(number("turntable", turntable, kTurns, "N",
-             "The camera goes around what it looks at, once in N frames; alone it renders these"));
+             "Move the camera once around its target in N frames; without --frames, render these N frames"));
   group.add(read_by(
                 "shutter", shutter, "OPEN:CLOSE",
-                "Motion blur: the shutter is open from a frame's time plus OPEN to that plus CLOSE, both in "
-                "frames of --fps; -0.25:0.25 is a shutter of 180 degrees",
+                "Motion blur: the shutter opens OPEN frames (of --fps) after the time of a frame and closes "
+                "CLOSE frames after it; -0.25:0.25 is a 180-degree shutter",
                 [](const ShutterRange& chosen) { return chosen.is_open() ? text_of(chosen) : OptionValue(); },
                 parse_shutter),
             {.in_sweep = false});
   group.add(number("frame-groups", groups, kGroups, "N",
-                   "Groups of the ranks of gatelight-mpi: each renders every N-th "
-                   "frame; only where frames do not depend on each other"),
+                   "Number of groups that split the ranks of gatelight-mpi; each group renders every N-th "
+                   "frame. Frames must not depend on each other"),
             {.in_sweep = false, .stage = OptionStage::program, .in_recipe = InRecipe::never});
 }
 
@@ -148,17 +148,16 @@ Option preset_option(std::optional<CachePreset>& preset) {
   const auto read = [&preset](const std::string& text) {
     preset = parse_choice("preset", text, kEnumNames<CachePreset>);
   };
-  return {
-      .name = "preset",
-      .unit = choice_names(kEnumNames<CachePreset>),
-      .help =
-          "Values for many flags at once; flags beside it win: the cache's bare answers; finished pictures "
-          "in seconds, with little grain, or of final quality; or the paper's nao and nrc (with its size and "
-          "samples)",
-      .value = [&preset] { return preset ? enum_name(*preset) : OptionValue(); },
-      .read = read,
-      .group = "Light transport",
-      .marks = {.common = true, .in_recipe = InRecipe::unless_reproducible}};
+  return {.name = "preset",
+          .unit = choice_names(kEnumNames<CachePreset>),
+          .help =
+              "Sets many flags, which other flags override. bare: the cache's answers only; preview, "
+              "standard, final: finished pictures in seconds, with little grain, or of final quality; "
+              "paper-nao, paper-nrc: the paper's settings, including size and samples",
+          .value = [&preset] { return preset ? enum_name(*preset) : OptionValue(); },
+          .read = read,
+          .group = "Light transport",
+          .marks = {.common = true, .in_recipe = InRecipe::unless_reproducible}};
 }
 
 }  // namespace
@@ -168,11 +167,10 @@ void add_picture_files(OptionGroup& group, std::vector<std::string>& outputs,
   auto& [exr_float, bits, display, edited] = image;          // `edited` is no option
   auto& [exposure, white_balance, tonemap, ocio] = display;  // `stops` sets the exposure
   auto& [ocio_config, ocio_display, ocio_view] = ocio;
-  Option& output = group.add(
-      any_words("output", outputs, "FILE|-",
-                "Picture to write, .exr, .png, .jpg, .tif or .hdr; may be given several times. - is stdout, "
-                "as PNG; exr:- and the like choose its format"),
-      {.common = true, .in_sweep = false, .in_recipe = InRecipe::unless_reproducible});
+  Option& output = group.add(any_words("output", outputs, "FILE|-",
+                                       "Picture to write: .exr, .png, .jpg, .tif or .hdr; may be given "
+                                       "several times. - writes PNG to stdout; exr:- writes EXR, and so on"),
+                             {.common = true, .in_sweep = false, .in_recipe = InRecipe::unless_reproducible});
   output.letter = "-o";
   output.required = true;
   const auto add = [&](Option option, Marks marks) {
@@ -183,32 +181,35 @@ void add_picture_files(OptionGroup& group, std::vector<std::string>& outputs,
   add(choice("exr", exr_float, kExr, "Precision of colours in EXR files"),
       {.in_sweep = false, .formats = {ImageFormat::exr}});
   add(number_or("auto", "exposure", stops, kStops, "EV",
-                "Stops by which displayed pictures (PNG, JPEG, TIFF) are brighter; auto, that of presets of "
-                "radiance: by the picture's own light, printed at the end"),
+                "Exposure of PNG, JPEG and TIFF pictures in stops; auto (default of the presets that render "
+                "radiance): from the picture's own brightness, printed at the end"),
       {.common = true, .in_window = true, .formats = shown});
   add(number("white-balance", white_balance, kKelvin, "KELVIN",
-             "Colour of light that displayed pictures show as white"),
+             "Colour temperature that PNG, JPEG and TIFF pictures show as white"),
       {.in_window = true, .in_sweep = false, .formats = shown});
-  add(choice("tonemap", tonemap, "Curve of displayed pictures; the presets of finished pictures have agx"),
+  add(choice("tonemap", tonemap,
+             "Tone curve of PNG, JPEG and TIFF pictures; preview, standard and final use agx"),
       {.common = true, .in_window = true, .formats = shown});
-  add(choice("bits", bits, kBits, "Bits of a channel in PNG and TIFF files"),
+  add(choice("bits", bits, kBits, "Bits per channel of PNG and TIFF files"),
       {.in_sweep = false, .formats = {ImageFormat::png, ImageFormat::tiff}});
   const Marks of_ocio = {.in_sweep = false, .formats = shown};
-  add(any_word("ocio", ocio_config, "FILE",
-               "OpenColorIO configuration, whose view replaces --tonemap and sRGB in displayed pictures"),
+  add(any_word(
+          "ocio", ocio_config, "FILE",
+          "OpenColorIO configuration; its view replaces --tonemap and sRGB in PNG, JPEG and TIFF pictures"),
       of_ocio);
-  add(any_word("ocio-display", ocio_display, "NAME", "Its display (default: that of the configuration)"),
+  add(any_word("ocio-display", ocio_display, "NAME",
+               "Display of the OpenColorIO configuration (default: the configuration's)"),
       of_ocio);
-  add(any_word("ocio-view", ocio_view, "NAME", "Its view (default: that of the display)"), of_ocio);
+  add(any_word("ocio-view", ocio_view, "NAME", "View of this display (default: the display's)"), of_ocio);
 }
 
 Option external_option(bool& allowed) {
   return toggle("allow-external", allowed,
-                "Let the scene read files outside its own folder: do so for scenes that you trust");
+                "Let the scene read files outside its folder; use it only for scenes that you trust");
 }
 
 Option progress_option(ProgressMode& mode) {
-  return choice("progress", mode, kProgressModes, "Progress on stderr; auto: a bar on a terminal");
+  return choice("progress", mode, kProgressModes, "Progress on stderr; auto: a bar if stderr is a terminal");
 }
 
 Option positional(const char* name, std::string& member, const char* help) {
@@ -247,7 +248,7 @@ std::vector<Option> option_table(RenderSettings& settings) {
         .default_text = "0,1,0";
     view.add(any_word("view-file", view_file, "FILE",
                       "JSON object with the view: camera, eye, target, up, fov, lens, projection, "
-                      "view-height, aperture, focus, blades; flags beside it win"),
+                      "view-height, aperture, focus, blades; flags override it"),
              {.in_recipe = InRecipe::never});
   }
   return table;

@@ -66,14 +66,12 @@ void add_checkpoint_options(std::vector<Option>& table, CheckpointOptions& check
     marks.in_recipe = InRecipe::unless_reproducible;
     files.add(std::move(option), std::move(marks));
   };
-  add(any_word("checkpoint", file, "FILE",
-               "Write a file from which --resume continues after the program has ended"),
+  add(any_word("checkpoint", file, "FILE", "Write a checkpoint, from which --resume continues an ended run"),
       {.common = true});
   add(number("checkpoint-every", every_seconds, kNotNegative, "SECONDS",
-             "Time between two writes of the checkpoint"));
-  add(toggle(
-          "resume", resume,
-          "Continue from the checkpoint if it exists; the picture is the same as without the interruption"),
+             "Interval between writes of the checkpoint"));
+  add(toggle("resume", resume,
+             "Continue from the checkpoint if it exists; the picture is the same as without interruption"),
       {.common = true});
 }
 
@@ -94,12 +92,13 @@ Option size_option(int& width, int& height) {
 
 Option region_option(std::optional<std::array<int, 4>>& region) {
   return read_by(
-      "region", region, "x0,y0,x1,y1", "Render this part only, in pixels; x1 and y1 are excluded",
+      "region", region, "x0,y0,x1,y1",
+      "Render only this part of the picture, in pixels; x1 and y1 are excluded",
       [](const auto& r) { return r ? std::vector<int>(r->begin(), r->end()) : OptionValue(); }, parse_region);
 }
 
 Option aov_option(std::vector<Aov>& aovs) {
-  std::string help = "Further layers of EXR files, separated by commas: ";
+  std::string help = "Additional EXR layers, separated by commas: ";
   Words<Aov> words;
   for (const AovInfo& row : kAovs) {
     words["all"].push_back(row.aov);
@@ -120,18 +119,17 @@ Option aov_option(std::vector<Aov>& aovs) {
 Option cryptomatte_option(std::vector<MatteKind>& kinds) {
   return read_by(
       "cryptomatte", kinds, "object,material",
-      "Masks for compositing in EXR files, by the names of objects, of materials or of both: the layers of "
-      "the Cryptomatte specification, six names a pixel; glass and mirrors are objects themselves",
+      "Masks for compositing in EXR files (Cryptomatte specification), by the names of objects, materials or "
+      "both, six names per pixel. Glass and mirrors are masked themselves, not the objects seen in them",
       [](const auto& chosen) { return chosen.empty() ? OptionValue() : words_of(chosen); },
       [](const std::string& option, const std::string& text) { return read_words<MatteKind>(option, text); });
 }
 
 Option light_groups_option(std::vector<LightGroup>& groups) {
   return read_by("light-groups", groups, "none|A=LIGHT,LIGHT;B=...",
-                 "Layers of EXR files, light-A and so on, with the part of these lights and emissive "
-                 "materials of the file, by name ('*' ends a name that only begins so), or of the "
-                 "environment; 'rest' is that of all others; with --integrator path: "
-                 "\"key=Sun,Lamp*;sky=environment\"",
+                 "EXR layers, light-A and so on, with the light of these lights and emissive materials of "
+                 "the file, by name ('*' at the end matches any ending), or of the environment; light-rest "
+                 "has all other light. Needs --integrator path. Example: \"key=Sun,Lamp*;sky=environment\"",
                  list_value, read_light_groups);
 }
 
@@ -152,9 +150,9 @@ Option integrator_option(Integrator& integrator, bool& choose) {
   return {.name = "integrator",
           .unit = names,
           .help =
-              "What is rendered: radiance (path) or ambient occlusion (ao), or the same with a cache that is "
-              "trained first (nrc, nao); auto, that of the presets: nrc, or path where light paths are too "
-              "short for a cache to pay off",
+              "Radiance (path) or ambient occlusion (ao), or the same with a cache that is trained first "
+              "(nrc, nao); auto (default of preview, standard and final): nrc, or path if light paths are "
+              "too short for a cache to pay off",
           .value = value,
           .read = read};
 }
@@ -174,32 +172,32 @@ constexpr Requirement kDenoiserOrLayers{
 void add_denoise_options(OptionGroup& picture, DenoiseOptions& options) {
   auto& [denoiser, prefilter, supersampling, temporal, parts, library] = options;
   picture.add(choice("denoiser", denoiser,
-                     "Denoises the finished picture: Open Image Denoise (oidn), the same where it "
-                     "is found (auto, that of the presets), or nothing"),
+                     "Denoise the picture with Open Image Denoise (oidn), only if it is found (auto, default "
+                     "of preview, standard and final), or never (none)"),
               {.common = true});
   picture.add(
       choice("prefilter", prefilter,
-             "Albedo and normal before they guide the denoiser: denoised themselves (accurate); read as they "
-             "are, for half the time (none): their noise shows in glass and behind lenses; or read by a "
-             "smaller network that expects noise in them, for a third of the time (fast)"),
+             "Treatment of albedo and normal before they guide the denoiser: denoised first (accurate); "
+             "unfiltered, in half the time, but their noise shows in glass and with depth of field (none); "
+             "or unfiltered for a smaller network that expects noise, in a third of the time (fast)"),
       {.of_denoise = true, .needs = {kDenoiserOrLayers}});
   picture.add(choice("supersampling", supersampling, kSupersampling,
-                     "Render and denoise at this many times the width and height, with the same number of "
-                     "samples, and scale by the pixel filter: better edges of bright windows, worse fine "
-                     "textures, four times the denoiser's time"),
+                     "Render and denoise at this multiple of width and height, with the same total of "
+                     "samples, and scale with the pixel filter: better edges of bright windows, worse fine "
+                     "textures, four times the denoising time"),
               {.needs = {kDenoiser}});
-  picture.add(choice("temporal", temporal, kOnOff,
-                     "Frames take over samples of earlier frames where they show the same surface "
-                     "in the same light, before the denoiser"),
-              {.in_sweep = false, .needs = {kDenoiser}});
   picture.add(
-      choice("denoise-parts", parts, kOnOff,
-             "Denoises the layers of passes and light groups too, each by the picture's guides and in "
-             "the picture's time, and scales them so that their sum is the picture"),
-      {.in_sweep = false, .needs = {kDenoiser}, .formats = {ImageFormat::exr}});
+      choice(
+          "temporal", temporal, kOnOff,
+          "Before denoising, reuse samples of earlier frames that show the same surface in the same light"),
+      {.in_sweep = false, .needs = {kDenoiser}});
+  picture.add(choice("denoise-parts", parts, kOnOff,
+                     "Also denoise the layers of passes and light groups, and scale them so that they sum to "
+                     "the picture. Each layer takes as long as the picture"),
+              {.in_sweep = false, .needs = {kDenoiser}, .formats = {ImageFormat::exr}});
   picture.add(any_word("oidn", library, "FILE|FOLDER",
-                       "Open Image Denoise 2, libOpenImageDenoise.so.2 (default: GATELIGHT_OIDN "
-                       "of the environment, else where scripts/setup or the system have it)"),
+                       "Open Image Denoise 2, libOpenImageDenoise.so.2 (default: the environment variable "
+                       "GATELIGHT_OIDN, else the library of scripts/setup or of the system)"),
               {.of_denoise = true, .in_recipe = InRecipe::of_machine, .needs = {kDenoiser}});
 }
 
@@ -208,15 +206,15 @@ void add_machine_options(std::vector<Option>& table, int& threads, std::size_t& 
                          std::string& isa) {
   OptionGroup machine{table, "Machine"};
   const Marks of_machine = {.common = true, .of_denoise = true, .in_recipe = InRecipe::of_machine};
-  machine.add(
-      number("threads", threads, {0, 1024}, "N", "0: as many as the machine and the control group allow"),
-      of_machine);
+  machine.add(number("threads", threads, {0, 1024}, "N",
+                     "Number of threads; 0: as many as machine and control group allow"),
+              of_machine);
   const auto read_limit = [&](const std::string& text) {
     memory_limit_bytes = static_cast<std::size_t>(parse_integer("memory-limit", text, kMebibytes)) << 20;
   };
   machine.add({.name = "memory-limit",
                .unit = "MIB",
-               .help = "Largest memory, in MiB; more is refused; 0: no limit",
+               .help = "Memory limit in MiB; renders that need more are refused; 0: no limit",
                .value = [&] { return value_of(memory_limit_bytes >> 20); },
                .read = read_limit},
               of_machine);
@@ -240,25 +238,25 @@ std::vector<Option> picture_options(RenderOptions& options) {
   picture.add(size_option(width, height), {.common = true, .in_window = true});
   picture.add(region_option(region));
   picture.add(number("spp", spp, {1, kUnlimitedSpp}, "N",
-                     "Samples per pixel; a limit with --time-limit or --max-error"),
+                     "Samples per pixel; an upper limit with --time-limit or --max-error"),
               {.common = true, .in_window = true});
-  picture.add(number("time-limit", time_limit_seconds, kNotNegative, "SECONDS",
-                     "Time of scouting, training, rendering and denoising together; it decides --spp and the "
-                     "steps of a preset where they are not given; loading, building and writing come on "
-                     "top; 0: no limit"),
-              {.common = true, .in_sweep = false});
+  picture.add(
+      number("time-limit", time_limit_seconds, kNotNegative, "SECONDS",
+             "Total time for scouting, training, rendering and denoising; loading, building and writing are "
+             "extra. It decides --spp and the training steps of a preset unless they are given; 0: no limit"),
+      {.common = true, .in_sweep = false});
   picture.add(number("max-error", max_error, kNotNegative, "E",
-                     "Stop where the estimated error of the picture is at most this, as 0.05: relative RMS, "
-                     "the square root of compare's rel_mse, without the bias of a cache; without --spp at "
-                     "65536 samples at the latest; 0: off"),
+                     "Stop once the estimated error of the picture is at most this, such as 0.05: relative "
+                     "RMS, the square root of compare's rel_mse, without the bias of a cache. Unless --spp "
+                     "is given, stop after 65536 samples at the latest; 0: off"),
               {.common = true, .in_sweep = false});
   picture.add(
       number("seed", seed, {0, std::numeric_limits<std::uint32_t>::max()}, "N", "Seed of all random numbers"),
       {.common = true, .in_window = true, .of_field = true});
-  picture.add(choice("sampler", sampler, "Kind of random numbers"));
+  picture.add(choice("sampler", sampler, "Sobol sequence or independent random numbers"));
   picture.add(choice("filter", filter, "Pixel filter"), {.of_denoise = true});
   picture.add(number("filter-width", filter_width, {0.0, 32.0}, "PIXELS",
-                     "Full width of the pixel filter; 0: the filter's own"),
+                     "Full width of the pixel filter; 0: the filter's default"),
               {.of_denoise = true});
   add_denoise_options(picture, denoise);
   picture.add(aov_option(aovs), {.common = true, .in_sweep = false, .formats = {ImageFormat::exr}});
@@ -274,23 +272,23 @@ std::vector<Option> picture_options(RenderOptions& options) {
                       "Largest number of scattering events; 1: emission and direct light"),
             {.common = true, .in_window = true});
   light.add(number_or("none", "max-transmission-depth", max_transmission_depth, kDepth, "N",
-                      "Largest number of them that go to the other side of a surface; panes do not count"));
-  light.add(number("min-depth", min_depth, kDepth, "N", "Russian roulette starts after this many events"));
+                      "Largest number of transmissions through surfaces; panes do not count"));
+  light.add(number("min-depth", min_depth, kDepth, "N",
+                   "Number of scattering events before Russian roulette starts"));
   light.add(choice("direct", direct,
-                   "How light is found: by light samples (nee), by bounces (bsdf), or by both (mis)"));
+                   "How direct light is found: by light samples (nee), by bounces (bsdf), or by both (mis)"));
   light.add(choice("mis", mis, "Heuristic of multiple importance sampling"));
-  light.add(choice("light-selection", light_selection, "How one of many lights is chosen"));
+  light.add(choice("light-selection", light_selection, "How a light is selected for a light sample"));
+  light.add(choice("glass-shadows", glass_shadows,
+                   "Light through solid glass: refracted, but found only by bounces, which miss suns and "
+                   "small lamps (refract); or not refracted, as through panes (straight: an approximation, "
+                   "default of bare, preview, standard and final)"));
   light.add(choice(
-      "glass-shadows", glass_shadows,
-      "Light behind glass with an inside: found only by bounces, so that suns and small lamps give none "
-      "(refract), or unrefracted, as through panes (straight: an approximation, that of the presets)"));
-  light.add(
-      choice("watertight", watertight, kOnOff,
-             "Whether no ray slips between triangles that share an edge; off is faster where triangles are "
-             "long and thin"));
+      "watertight", watertight, kOnOff,
+      "Let no ray slip between triangles that share an edge; off is faster if triangles are long and thin"));
   Option& reach = light.add(number("ao-distance", ao_distance,
                                    {.min = 0.0, .max = 3.4e38, .excludes_min = true, .infinity = true},
-                                   "METRES", "Reach of ambient occlusion; inf allowed"));
+                                   "METRES", "Reach of ambient occlusion; inf is allowed"));
   reach.value = [&options] { return options.ao_distance < 0.0f ? OptionValue() : options.ao_distance; };
   reach.default_text = "a tenth of the scene's diagonal";
   light.add(number("clamp", clamp, kNotNegative, "X", "Largest luminance of one sample (biased); 0: off"),

@@ -89,19 +89,17 @@ void add_lens_options(OptionGroup& view, LensOptions& lens) {
   const auto aperture_value = [&lens]() -> OptionValue {
     return lens.f_stop > 0.0f ? fmt::format("f/{}", lens.f_stop) : fmt::format("{}", lens.aperture);
   };
-  view.add(
-      {.name = "aperture",
-       .unit = "f/N|METRES",
-       .help = "Aperture of the lens, as an f-stop or its diameter: objects out of focus are blurred; 0: "
-               "all is sharp",
-       .value = aperture_value,
-       .read = [&lens](const std::string& text) { read_aperture(lens, text); }},
-      {.of_view = true});
-  view.add(any_word("focus", focus, "METRES|NODE",
-                    "With --aperture: distance along the view, or an object (default: the distance in the "
-                    "middle of the picture, which is reported)"),
+  view.add({.name = "aperture",
+            .unit = "f/N|METRES",
+            .help = "Depth of field: aperture of the lens as an f-stop or a diameter; 0: everything is sharp",
+            .value = aperture_value,
+            .read = [&lens](const std::string& text) { read_aperture(lens, text); }},
            {.of_view = true});
-  view.add(number("blades", blades, {0, 64}, "N", "With --aperture: its corners; 0: round"),
+  view.add(any_word("focus", focus, "METRES|NODE",
+                    "With --aperture: focus distance along the view, or an object to focus on (default: the "
+                    "distance at the picture's centre, which is printed)"),
+           {.of_view = true});
+  view.add(number("blades", blades, {0, 64}, "N", "With --aperture: number of its corners; 0: round"),
            {.of_view = true});
 }
 
@@ -115,8 +113,8 @@ void add_view_options(std::vector<Option>& table, renderer::CameraOptions& camer
   [[maybe_unused]] auto& [name, index, look_at, fov_degrees, focal_mm, projection, view_height, lens, turn,
                           turn_in_shutter] = camera;
   view.add(any_word("camera", name, "NAME|INDEX",
-                    "Camera of the file, by its name, its node's or its index (default: the first); all of "
-                    "them with 'all' and {camera} in the outputs' names"),
+                    "Camera of the file: its name, its node's name or its index (default: the first); 'all' "
+                    "renders all cameras, with {camera} in the names of the outputs"),
            {.common = true, .of_view = true, .excludes = {"eye", "target", "up"}})
       .value = [&camera] { return camera.look_at || camera.name.empty() ? OptionValue() : camera.name; };
   // Beyond these bounds tangents leave the range of single precision.
@@ -124,45 +122,44 @@ void add_view_options(std::vector<Option>& table, renderer::CameraOptions& camer
                      "Vertical field of view; overrides the camera's"),
            {.common = true, .of_view = true, .excludes = {"lens"}});
   view.add(number_or("", "lens", focal_mm, {0.1, 1e5}, "MM",
-                     "The same by a focal length, with 36 mm across the wider side of the picture"),
+                     "Focal length, instead of --fov; the longer side of the picture is 36 mm"),
            {.of_view = true, .excludes = {"fov"}});
   view.add(choice("projection", projection,
-                  "As the camera of the file, or one of these; a panorama shows all directions around the "
-                  "camera (latitude-longitude, expected twice as wide as high)"),
+                  "Projection of the camera in the file (camera), or another one; a panorama shows all "
+                  "directions in latitude-longitude format, usually with a size of 2:1"),
            {.of_view = true});
   view.add(number_or("", "view-height", view_height, {.min = 0.0, .max = 2e12, .excludes_min = true},
-                     "METRES", "Height of the view of an orthographic picture"),
+                     "METRES", "Height of the visible area of an orthographic picture"),
            {.of_view = true});
   add_lens_options(view, lens);
   [[maybe_unused]] auto& [automatic, file, constant, sky, rotation_degrees, scale, fog] =
       environment;  // one flag sets the first three
+  view.add({.name = "environment",
+            .unit = "auto|none|r,g,b|FILE",
+            .help = "Environment light: a soft sky if the scene is dark without it (auto), none, a constant "
+                    "radiance, or a latitude-longitude .exr or .hdr",
+            .value = [&environment] { return environment_value(environment); },
+            .read = [&environment](const std::string& text) { read_environment(environment, text); }},
+           {.common = true, .in_window = true, .excludes = {"sky"}});
   view.add(
-      {.name = "environment",
-       .unit = "auto|none|r,g,b|FILE",
-       .help = "Light from all around: a soft sky if no light shows the scene (auto), one radiance, or a "
-               "latitude-longitude .exr or .hdr",
-       .value = [&environment] { return environment_value(environment); },
-       .read = [&environment](const std::string& text) { read_environment(environment, text); }},
-      {.common = true, .in_window = true, .excludes = {"sky"}});
-  view.add({.name = "sky",
-            .unit = "none|clear|PART=VALUE,...",
-            .help = "Instead of --environment a clear sky with a sun: turbidity=3, sun=AZIMUTH,ELEVATION "
-                    "(degrees; north is -z, east +x), ground=ALBEDO, size=0.53 (of the sun's disc in "
-                    "degrees; 0: a directional light), intensity=1; or date=2026-06-21, time=14:30, "
-                    "place=LATITUDE,LONGITUDE, zone=+2 instead of the sun; a white surface in full daylight "
-                    "has a radiance of 1",
-            .value = [&environment]() -> OptionValue {
-              return environment.sky ? text_of(*environment.sky) : "none";
-            },
-            .read =
-                [&environment](const std::string& text) {
-                  environment.sky.reset();
-                  if (text != "none") environment.sky = read_sky("sky", text);
-                }},
-           {.in_window = true, .excludes = {"environment"}});
+      {.name = "sky",
+       .unit = "none|clear|PART=VALUE,...",
+       .help = "Clear sky with a sun, instead of --environment: turbidity=3, sun=AZIMUTH,ELEVATION (degrees; "
+               "north is -z, east is +x), ground=ALBEDO, size=0.53 (diameter of the sun in degrees; 0: a "
+               "directional light), intensity=1. Instead of the sun's position: date=2026-06-21, time=14:30, "
+               "place=LATITUDE,LONGITUDE, zone=+2. A white surface in full daylight has a radiance of 1",
+       .value = [&environment]() -> OptionValue {
+         return environment.sky ? text_of(*environment.sky) : "none";
+       },
+       .read =
+           [&environment](const std::string& text) {
+             environment.sky.reset();
+             if (text != "none") environment.sky = read_sky("sky", text);
+           }},
+      {.in_window = true, .excludes = {"environment"}});
   view.add(read_by("fog", fog, "none|DENSITY[,r,g,b[,g]]",
-                   "Fog in the bounds of the scene: extinction per metre, the part of it that is scattering "
-                   "[1,1,1], and the mean cosine of scattering [0], from -0.99 to 0.99",
+                   "Fog in the bounds of the scene: extinction per metre, single-scattering albedo [1,1,1], "
+                   "and mean cosine of scattering [0], from -0.99 to 0.99",
                    fog_value, read_fog),
            {.in_window = true});
   // One flag sets the first three.
@@ -170,18 +167,19 @@ void add_view_options(std::vector<Option>& table, renderer::CameraOptions& camer
   view.add(
       {.name = "background",
        .unit = "scene|transparent|r,g,b|FILE",
-       .help = "Background behind the scene, also through holes and panes: the environment, nothing (the "
-               "picture has an alpha), one radiance or a picture; mirrors and solid glass show the "
-               "environment",
+       .help =
+           "Background, also visible through holes and panes: the environment (scene), an alpha channel "
+           "(transparent), a constant radiance or a picture. Mirrors and solid glass show the environment",
        .value = [&background] { return background_value(background); },
        .read = [&background](const std::string& text) { read_background(background, text); }},
       {.common = true, .in_window = true, .of_denoise = true});
   view.add(any_word("shadow-catcher", shadow_catcher, "NODE",
-                    "With --background: an object of the file that is invisible but for the shadows on it"));
+                    "With a --background other than scene: an object of the file that is invisible except "
+                    "for the shadows on it"));
   view.add(number("environment-rotation", rotation_degrees, kAnyFloat, "DEGREES",
-                  "Turns the environment about +y, counter-clockwise from above"),
+                  "Rotation of the environment about +y, counter-clockwise from above"),
            {.in_window = true});
-  view.add(number("environment-scale", scale, kNotNegative, "X", "Multiplies the environment"),
+  view.add(number("environment-scale", scale, kNotNegative, "X", "Factor of the environment's radiance"),
            {.common = true, .in_window = true});
 }
 

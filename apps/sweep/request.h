@@ -20,12 +20,12 @@ struct AxisFlag {
 inline constexpr AxisFlag kAxisFlags[] = {
     {"--integrators", "--integrator", "nrc, nao, path, ao", "nrc"},
     {"--encodings", "--encoding", "gate, hashgrid"},
-    {"--features", "--features", "gate: numbers in a feature vector"},
+    {"--features", "--features", "gate: length of a feature vector"},
     {"--resolution", "--resolution", "gate: uniform, paper, fixed:R"},
-    {"--stack", "--stack", "gate: resolutions of the levels; one stack, or several separated by ';'"},
+    {"--stack", "--stack", "gate: resolutions of the levels; ';' separates several stacks"},
     {"--cache-memory", "--cache-memory",
-     "In MiB; 0: no limit; same-as-gate: the hash grid takes as many bytes as GATE with the same flags, "
-     "same-as-gate/2 half as many"},
+     "Memory of the features in MiB; 0: no limit; same-as-gate: the hash grid has the memory of GATE with "
+     "the same flags; same-as-gate/2: half of it"},
     {"--hidden", "--hidden", "Width of the network's hidden layers"},
     {"--learning-rate", "--learning-rate", "Size of a training step"},
     {"--cache-spp", "--spp", "Samples per pixel of pictures with a cache", "4"},

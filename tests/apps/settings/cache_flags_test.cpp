@@ -145,7 +145,7 @@ TEST(CacheFlags, EveryFlagIsExplainedInAGroup) {
     EXPECT_GE(option->get_description().size(), 10u) << option->get_name();
     EXPECT_NE(option->get_group(), "Options") << option->get_name();
   }
-  for (const char* group : {"Files:", "Cache, learning:", "Cache, what it is:", "Cache, answers:"}) {
+  for (const char* group : {"Files:", "Cache, learning:", "Cache, model:", "Cache, answers:"}) {
     EXPECT_THAT(help, HasSubstr(std::string("\n") + group + "\n"));
   }
   std::istringstream lines(help);
