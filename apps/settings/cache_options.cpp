@@ -173,10 +173,9 @@ void add_training_options(OptionGroup& group, neural::TrainingOptions& options) 
 
 void add_learning_options(std::vector<Option>& table, CacheOptions& options) {
   OptionGroup group{table, "Cache, learning"};
-  group.add(
-      number_or("auto", "train-steps", options.train_steps, kSteps, "N",
-                "Training steps before rendering; auto: from the picture's pixels and samples; 0: none"),
-      {.common = true});
+  group.add(number_or("auto", "train-steps", options.train_steps, kSteps, "N",
+                      "Training steps before rendering; auto: from pixels and samples; 0: none"),
+            {.common = true});
   group.add(number("train-time", options.train_seconds, kNotNegative, "SECONDS",
                    "Start no further training step after this time; 0: no limit"),
             {.in_sweep = false});

@@ -153,7 +153,7 @@ Option preset_option(std::optional<CachePreset>& preset) {
           .help =
               "Sets many flags, which other flags override. bare: the cache's answers only; preview, "
               "standard, final: finished pictures in seconds, with little grain, or of final quality; "
-              "paper-nao, paper-nrc: the paper's settings, including size and samples",
+              "paper-nao, paper-nrc: the settings of the GATE paper, including size and samples",
           .value = [&preset] { return preset ? enum_name(*preset) : OptionValue(); },
           .read = read,
           .group = "Light transport",

@@ -70,8 +70,7 @@ void add_checkpoint_options(std::vector<Option>& table, CheckpointOptions& check
       {.common = true});
   add(number("checkpoint-every", every_seconds, kNotNegative, "SECONDS",
              "Interval between writes of the checkpoint"));
-  add(toggle("resume", resume,
-             "Continue from the checkpoint if it exists; the picture is the same as without interruption"),
+  add(toggle("resume", resume, "Continue from the checkpoint if it exists; the picture is bit-identical"),
       {.common = true});
 }
 
@@ -150,9 +149,9 @@ Option integrator_option(Integrator& integrator, bool& choose) {
   return {.name = "integrator",
           .unit = names,
           .help =
-              "Radiance (path) or ambient occlusion (ao), or the same with a cache that is trained first "
-              "(nrc, nao); auto (default of preview, standard and final): nrc, or path if light paths are "
-              "too short for a cache to pay off",
+              "Radiance (path) or ambient occlusion (ao), or the same with a neural cache that is trained "
+              "first (nrc, nao); auto (default of preview, standard and final): nrc, or path if light paths "
+              "are too short for a cache to pay off",
           .value = value,
           .read = read};
 }
@@ -172,8 +171,8 @@ constexpr Requirement kDenoiserOrLayers{
 void add_denoise_options(OptionGroup& picture, DenoiseOptions& options) {
   auto& [denoiser, prefilter, supersampling, temporal, parts, library] = options;
   picture.add(choice("denoiser", denoiser,
-                     "Denoise the picture with Open Image Denoise (oidn), only if it is found (auto, default "
-                     "of preview, standard and final), or never (none)"),
+                     "Denoise the picture with Open Image Denoise: always (oidn), if it is found (auto, "
+                     "default of preview, standard and final), or never (none)"),
               {.common = true});
   picture.add(
       choice("prefilter", prefilter,
