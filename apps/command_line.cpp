@@ -112,7 +112,7 @@ std::string describe(const CLI::App& root, const CLI::ParseError& error, const C
     if (!unknown.empty()) text = required ? fmt::format("{}; {}", text, unknown) : unknown;
     const std::vector<std::string> rest = root.remaining(true);
     if (required && unknown.empty() && !rest.empty() && text.starts_with("--output"))
-      text = fmt::format("{}; '{}' belongs to no flag, did you mean '-o {}'?", text, cut(rest.front()),
+      text = fmt::format("{}; '{}' does not belong to a flag, did you mean '-o {}'?", text, cut(rest.front()),
                          cut(rest.front()));
   }
   if (dynamic_cast<const CLI::ConfigError*>(&error) != nullptr && called != nullptr) {
@@ -217,7 +217,7 @@ int parse(int argc, const char* const* argv, bool runs, const RankGroup& group) 
     for (const Subcommand& subcommand : subcommands) {
       if (!subcommand.app->parsed()) continue;
       if (!group.is_alone() && !subcommand.of_ranks) {
-        throw BadOption(fmt::format("'{0}' runs in one process: start it by 'gatelight {0}'",
+        throw BadOption(fmt::format("'{0}' runs in one process: start it with 'gatelight {0}'",
                                     subcommand.app->get_name()));
       }
       return runs ? subcommand.run() : kDone;

@@ -25,7 +25,7 @@ bool has(const std::vector<Metric>& metrics, Metric metric) {
 
 void check_frames(const CompareSettings& settings, const std::vector<Metric>& metrics) {
   if (has(metrics, Metric::temporal) && !settings.has_pairs_of_frames())
-    throw BadOption({"metric", "temporal", "is about pairs of frames", "`frames` with two or more"});
+    throw BadOption({"metric", "temporal", "compares successive frames", "`frames` with two or more frames"});
   if (!settings.frames) {
     refuse_frame_place("REFERENCE", settings.reference);
     refuse_frame_place("TEST", settings.test);

@@ -149,10 +149,10 @@ Description describe(const InfoSettings& settings) {
 void check_picture_flags(const InfoSettings& settings) {
   const std::string& file = settings.render.scene;
   if (settings.command && !is_picture(file))
-    throw BadOption({"command", "", "it is the command line of a picture", "PICTURE.exr with it"});
+    throw BadOption({"command", "", "prints the command line of a picture", "PICTURE.exr"});
   if (is_picture(file) && !settings.render.given.empty()) {
     throw BadOption({*settings.render.given.begin(), "",
-                     fmt::format("it is for scenes, and '{}' is a picture", file),
+                     fmt::format("applies to scenes, but '{}' is a picture", file),
                      "only `command` or `json`"});
   }
 }
@@ -160,8 +160,7 @@ void check_picture_flags(const InfoSettings& settings) {
 int run_info(InfoSettings settings) {
   check_picture_flags(settings);
   if (settings.render.scene.empty() && !settings.render.given.empty()) {
-    throw BadOption(
-        {*settings.render.given.begin(), "", "it has no effect without a scene", "SCENE with it"});
+    throw BadOption({*settings.render.given.begin(), "", "has no effect without a scene", "SCENE"});
   }
   complete_settings(settings.render);
   read_files(settings.render).write("json", settings.json);

@@ -30,13 +30,13 @@ void measure_errors(CompareReport& report, const NamedPicture& reference, const 
       fmt::format("pixels that are not finite: {} in '{}', {} in '{}'", errors.nonfinite_reference,
                   reference.name, errors.nonfinite_test, test.name);
   if (others_need_all || !std::all_of(report.metrics.begin(), report.metrics.end(), leaves_pixels_out)) {
-    throw InputError(fmt::format(
-        "{}; expected none for ssim, flip, hdr_flip and temporal (--metric mse,rel_mse,psnr,mean,max leaves "
-        "them out)",
-        counts));
+    throw InputError(
+        fmt::format("{}; expected none for ssim, flip, hdr_flip and temporal (--metric "
+                    "mse,rel_mse,psnr,mean,max ignores them)",
+                    counts));
   }
   if (errors.pixels == 0) throw InputError(fmt::format("{}; nothing is left to compare", counts));
-  log_warning(fmt::format("{}; they are left out", counts));
+  log_warning(fmt::format("{}; they are ignored", counts));
 }
 
 void measure_looks(CompareReport& report, const NamedPicture& reference, const NamedPicture& test,

@@ -44,7 +44,8 @@ class ScenesSeen {
     if (first_.empty()) {
       first_ = name;
     } else if (name != first_ && !warned_) {
-      log_warning(fmt::format("'{}' shows the scene '{}', the files before it '{}'", file, name, first_));
+      log_warning(
+          fmt::format("'{}' shows the scene '{}', but the previous files show '{}'", file, name, first_));
       warned_ = true;
     }
   }

@@ -36,7 +36,7 @@ struct ErrorParts {
 };
 
 /// Formats the parts as a sentence, such as "spp: 'x' is not an integer from 1 to 5", "stack: '1,2,3' has 3
-/// levels, expected at most 2" or "fps: there are no frames, expected `frames` with it".
+/// levels, expected at most 2" or "fps: there are no frames, expected `frames` or `turntable`".
 std::string sentence(const ErrorParts& parts);
 
 /// The message is one line and names the file or option, the value and what was expected. Names of other

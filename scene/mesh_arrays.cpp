@@ -80,9 +80,7 @@ void choose_directions(MeshNeeds& needs, bool tangents, bool uv, const Warn& war
   if (!needs.tangents || *needs.tangents) return;
   needs.uv[0] |= !tangents && uv;
   if (tangents || needs.uv[0]) return;
-  warn(
-      "an anisotropic mesh has neither tangents nor texture coordinates: it reflects alike in all "
-      "directions");
+  warn("an anisotropic mesh has neither tangents nor texture coordinates: its reflection becomes isotropic");
   needs.tangents = nullptr;
 }
 

@@ -18,7 +18,7 @@ std::vector<std::string> warnings_of(const renderer::RenderStatistics& statistic
     warnings.push_back(fmt::format("the picture keeps its noise: {}", why));
   if (statistics.nonfinite > 0) {
     warnings.push_back(
-        fmt::format("{} samples were not finite and are left out; the statistics locate the first of them",
+        fmt::format("{} samples were not finite and are ignored; the statistics list the first of them",
                     statistics.nonfinite));
   }
   if (const std::uint64_t paths = statistics.rays.ended_walks; paths > 0) {
@@ -59,7 +59,7 @@ void require_good_end(const renderer::RenderStatistics& statistics, bool written
   if (const std::string& why = statistics.device_lost; !why.empty())
     throw DeviceLost(why + (written ? "; the picture so far was written" : ""));
   if (const std::string& why = statistics.cache.diverged; !why.empty()) {
-    throw TrainingDiverged(written ? fmt::format("{}; what was written is of its last good step, {}", why,
+    throw TrainingDiverged(written ? fmt::format("{}; the written picture is of the last good step, {}", why,
                                                  statistics.cache.steps)
                                    : why);
   }

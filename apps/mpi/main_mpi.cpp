@@ -33,8 +33,8 @@ RankCallbacks make_callbacks() {
   return {.on_fault = print_fault,
           .on_lost =
               [](int rank, const std::string& host, double seconds) {
-                print_fault(kLost, fmt::format("rank {} ({}) has not answered for {:.0f} s; all ranks end{}"
-                                               "--resume goes on from the last --checkpoint",
+                print_fault(kLost, fmt::format("rank {} ({}) has not answered for {:.0f} s; all ranks "
+                                               "end{}--resume continues from the last --checkpoint",
                                                rank, host, seconds, kSeparator));
               },
           .on_stop = request_stop,
@@ -78,7 +78,7 @@ int main(int argc, char** argv) {
   } catch (const std::exception& error) {
     apps::set_silent(false);
     apps::print_failure_line(
-        {apps::kUnavailable, error.what(), "start it by mpirun or srun, or use gatelight"});
+        {apps::kUnavailable, error.what(), "start it with mpirun or srun, or use gatelight"});
     return apps::kUnavailable;
   }
 }

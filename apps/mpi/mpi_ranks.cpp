@@ -163,8 +163,9 @@ void MpiRanks::end() {
   mpi.ended = true;
   const double seconds = start_timeout(mpi.silence);
   const std::jthread finished = deadline(
-      seconds, give_up(mpi.callbacks,
-                       fmt::format("all is done, but some rank does not end within {:.0f} s", seconds)));
+      seconds,
+      give_up(mpi.callbacks,
+              fmt::format("all work is done, but not all ranks have ended within {:.0f} s", seconds)));
   if (mpi.progress_thread) mpi.progress_thread->stop();
   std::vector<MpiGroup> groups;
   for (const auto& one : mpi.groups) groups.push_back(one->group());

@@ -119,7 +119,7 @@ FieldPoints CacheField::points(py::handle instances, py::handle triangles, py::h
   if (!instances.is_none()) i = rows<std::uint32_t>("instances", instances, 0);
   if (b.shape(0) != count || (!instances.is_none() && i.shape(0) != count))
     throw BadOption({"barycentrics", shape_of(b), "is the array's shape",
-                     fmt::format("({}, 2) as there are triangles, and as many instances", count)});
+                     fmt::format("({}, 2), one row for each triangle, and one instance for each", count)});
   FieldPoints points;
   for (py::ssize_t p = 0; p < count; ++p) {
     const std::uint32_t number = instances.is_none() ? 0 : i.data()[p], triangle = t.data()[p];
@@ -132,8 +132,8 @@ FieldPoints CacheField::points(py::handle instances, py::handle triangles, py::h
                        fmt::format("less than {}", scene_.mesh_of(instance).triangles.size())});
     const float u = b.data()[2 * p], v = b.data()[2 * p + 1];
     if (!(u >= 0.0f) || !(v >= 0.0f) || !(u + v <= 1.0001f))
-      throw BadOption(
-          {"barycentrics", "", fmt::format("({}, {}) of point {}", u, v, p), "weights from 0 to 1 together"});
+      throw BadOption({"barycentrics", "", fmt::format("({}, {}) of point {}", u, v, p),
+                       "weights of 0 or more, with a sum of at most 1"});
     const std::array<Vec3, 3> corners = scene::world_triangle(scene_, instance, triangle);
     const Vec3 position = (1.0f - u - v) * corners[0] + u * corners[1] + v * corners[2];
     const Vec3 normal = scene::world_normal(scene_, instance, triangle);
@@ -189,7 +189,8 @@ std::pair<std::uint32_t, py::dict> field_options(const std::string& path) {
   const nlohmann::ordered_json json =
       nlohmann::ordered_json::parse(found == file.metadata().end() ? "" : found->second, nullptr, false);
   if (!json.is_object() || json.value("kind", "") != kKind || !json.contains("options"))
-    throw CacheFileError(fmt::format("'{}' is no file of gatelight.Cache, expected one of its save()", path));
+    throw CacheFileError(
+        fmt::format("'{}' is not a file of gatelight.Cache, expected one that Cache.save() wrote", path));
   py::dict options;
   for (const auto& [name, value] : json["options"].items()) options[py::str(name)] = value.get<std::string>();
   return {json.value("outputs", 3u), options};

@@ -68,11 +68,9 @@ void add_cache(py::module_& module) {
               return std::make_unique<CacheField>(triangles_of(scene), outputs, options);
             }),
             py::arg("scene"), py::arg("encoding") = "gate", py::arg("outputs") = 3,
-            "encoding: gate or hashgrid. outputs: numbers of an answer, 1 to 16. Options: those of the "
-            "groups 'Cache' of "
-            "gatelight.options(), such as node_spacing (metres), cache_memory (MiB), hidden, layers, "
-            "learning_rate, batch, "
-            "normal_input.");
+            "encoding: gate or hashgrid. outputs: numbers in an answer, 1 to 16. Options: those of the "
+            "groups 'Cache' of gatelight.options(), such as node_spacing (metres), cache_memory (MiB), "
+            "hidden, layers, learning_rate, batch, normal_input.");
   cache.def("train", train, py::arg("points"), py::arg("targets"), py::arg("steps") = 256, py::kw_only(),
             py::arg("seed") = 0, py::arg("stop") = py::none(),
             "Trains with batches drawn from the points (Points) and their targets (n, outputs). Returns the "
@@ -94,7 +92,7 @@ void add_cache(py::module_& module) {
       py::arg("path"), py::arg("scene"), "Reads a file of save(), for the same triangles.");
   cache.def_property_readonly("outputs", &CacheField::outputs);
   cache.def_property_readonly("bytes", &CacheField::parameter_bytes, "Memory of features and network");
-  cache.def_property_readonly("steps", &CacheField::steps, "Training steps so far");
+  cache.def_property_readonly("steps", &CacheField::steps, "Number of training steps so far");
 }
 
 }  // namespace gatelight::python

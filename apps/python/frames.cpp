@@ -21,8 +21,8 @@ Frames::Frames(ScenePointer scene, const py::dict& keywords, py::object progress
       progress_(std::move(progress)),
       stop_(std::move(stop)) {
   require_given(
-      settings_, [](const apps::Option& option) { return option.group != "Files"; }, "frames have none here",
-      "it in `gatelight render`");
+      settings_, [](const apps::Option& option) { return option.group != "Files"; },
+      "is not available for frames in Python", "`gatelight render` for it");
   if (!settings_.frames.range) throw BadOption({"frames", "", "it is missing", "frames or turntable"});
   if (scene_->file && !scene_->loading.load.time && settings_.frames.turntable == 0)
     throw BadOption({"frames", "", "the scene was loaded without a time", "gatelight.load(path, time=0)"});

@@ -65,7 +65,7 @@ void add_materials(py::module_& module) {
       .def_property_readonly("index", [](const TexturePart& part) { return part.index; });
   py::class_<MaterialPart> material(
       module, "Material",
-      "A material of a scene, in the terms of glTF 2.0. A new value counts from the next render.");
+      "A material of a scene, in the terms of glTF 2.0. Changes apply from the next render on.");
   material.def("__repr__", [](const MaterialPart& part) {
     return fmt::format("<gatelight.Material {} '{}'>", part.index, get(part).name);
   });

@@ -27,7 +27,7 @@ class Busy {
  public:
   explicit Busy(std::atomic<bool>& flag) : flag_(flag) {
     if (flag_.exchange(true))
-      throw BadOption("the renderer is at work in another thread, expected one render at a time");
+      throw BadOption("the renderer is busy in another thread, expected one render at a time");
   }
   ~Busy() { flag_ = false; }
   Busy(const Busy&) = delete;
@@ -43,10 +43,10 @@ apps::RenderSettings settings_for(const SceneData& scene, const py::dict& keywor
   apps::RenderSettings settings = read_keywords(keywords);
   require_given(
       settings, [](const Option& option) { return option.marks.stage != OptionStage::program; },
-      "the module has no such option", "it in `gatelight render`");
+      "is not available in Python", "`gatelight render` for it");
   require_given(
       settings, [](const Option& option) { return option.marks.stage != OptionStage::load; },
-      "it belongs to loading", "it in gatelight.load");
+      "applies to loading", "it in gatelight.load");
   settings.scene = scene.source.path;
   settings.load = scene.loading.load;
   if (!settings.given.contains("fps")) settings.frames.fps = scene.loading.frames.fps;

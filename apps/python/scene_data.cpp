@@ -71,7 +71,7 @@ ScenePointer load_scene(const std::string& path, const py::dict& keywords) {
         return option.marks.stage == apps::OptionStage::load || option.name == "threads" ||
                option.name == "fps" || option.name == "shutter";
       },
-      "it does not belong to loading", "it in gatelight.render");
+      "does not apply to loading", "it in gatelight.render");
   settings.scene = path;
   apps::complete_settings(settings);
   apps::check_inputs(settings);

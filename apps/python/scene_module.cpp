@@ -65,7 +65,7 @@ void add_facts(py::class_<SceneData, ScenePointer>& scene) {
       "Name and seconds of each animation of the file");
   scene.def_property_readonly(
       "warnings", [](const ScenePointer& s) { return finished_scene(s)->warnings; },
-      "One line for each thing that was not taken literally");
+      "One line for each part of the file that could not be used as given");
   scene.def_property_readonly(
       "triangles", [](const ScenePointer& s) { return scene::count_triangles(s->source); },
       "Number of triangles, counted once per instance");
@@ -77,16 +77,17 @@ void add_facts(py::class_<SceneData, ScenePointer>& scene) {
         const Vec3& o = s->source.origin;
         return py::make_tuple(o.x(), o.y(), o.z());
       },
-      "Place of the world's origin in the file's coordinates; not zero where the scene lies far from that");
+      "Position of the world's origin in the file's coordinates; not zero if the scene is far from the "
+      "file's origin");
 }
 
 }  // namespace
 
 void add_scene(py::module_& module) {
-  py::class_<SceneData, ScenePointer> scene(module, "Scene",
-                                            "Meshes, instances, materials, lights and cameras. Made empty, "
-                                            "or by gatelight.load(). The unit is the metre, y is "
-                                            "up. Changes count from the next render.");
+  py::class_<SceneData, ScenePointer> scene(
+      module, "Scene",
+      "Meshes, instances, materials, lights and cameras. A new scene is empty; gatelight.load() reads one. "
+      "The unit is the metre, y is up. Changes apply from the next render on.");
   add_geometry(module);
   add_views(module);
   scene.def(py::init([] { return std::make_shared<SceneData>(); }));

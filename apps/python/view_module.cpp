@@ -33,7 +33,7 @@ const std::vector<Field<PunctualLight>>& light_fields() {
       {"position", &L::position, {}, "Metres, in the world"},
       {"direction", [](const L& l) -> py::object { return tuple_of(l.direction.array()); },
        [](L& l, py::handle v) { l.direction = direction("direction", v); },
-       "The way that light travels, in the world"},
+       "Direction in which light travels, in the world"},
       {"range", &L::range, kReach, "Metres; inf: no end"},
       {"inner_angle", [](const L& l) -> py::object { return py::float_(degrees_of(l.cos_inner)); },
        [](L& l, py::handle v) { l.cos_inner = std::cos(kDegree * number("inner_angle", v, kAngle)); },
@@ -74,8 +74,7 @@ Affine look_at(const Vec3& eye, const Vec3& target, const Vec3& up) {
   const Vec3 back = (eye - target).stableNormalized();
   const Vec3 right = up.cross(back).stableNormalized();
   if (!right.allFinite() || right.squaredNorm() < 0.5f)
-    throw BadOption(
-        {"up", "", "it is parallel to the view, or target is the place of eye", "another direction"});
+    throw BadOption({"up", "", "it is parallel to the view, or target equals eye", "another direction"});
   Affine transform = Affine::Identity();
   transform.linear().col(0) = right;
   transform.linear().col(1) = back.cross(right);

@@ -51,11 +51,11 @@ RankGroup own_group(int groups, const RankGroup& all) {
   }
   if (groups == 1) return all;
   if (all.is_alone())
-    throw BadOption({"frame-groups", "", "one process is one group",
-                     "several ranks of gatelight-mpi, by mpirun or srun"});
+    throw BadOption({"frame-groups", "", "a single process has only one group",
+                     "several ranks of gatelight-mpi, started with mpirun or srun"});
   if (groups > all.ranks.count())
     throw BadOption({"frame-groups", "",
-                     fmt::format("{} ranks cannot be {} groups", all.ranks.count(), groups),
+                     fmt::format("{} ranks cannot form {} groups", all.ranks.count(), groups),
                      fmt::format("at most {}", all.ranks.count())});
   const int number = number_of_group(groups, all.ranks);
   RankGroup own{all.split(number), all.local_count, {}, all.split, all.stop_others};

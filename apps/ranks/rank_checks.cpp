@@ -115,10 +115,9 @@ std::size_t require_memory_of_ranks(const RenderSettings& settings, const scene:
   }
   for (const auto& [host, machine] : machines) {
     if (machine.more <= machine.left) continue;
-    throw OutOfMemory(
-        fmt::format("{}: rendering needs {} more at the ranks of {} together, which has {} left",
-                    settings.scene, format_bytes(static_cast<std::size_t>(machine.more)), host,
-                    format_bytes(static_cast<std::size_t>(machine.left))));
+    throw OutOfMemory(fmt::format("{}: rendering needs {} more for all ranks on {}, which has {} left",
+                                  settings.scene, format_bytes(static_cast<std::size_t>(machine.more)), host,
+                                  format_bytes(static_cast<std::size_t>(machine.left))));
   }
   return need.total();
 }

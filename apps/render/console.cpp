@@ -42,7 +42,7 @@ void Console::note(const char* about, const std::string& text) {
 
 void Console::note_skipped(std::size_t skipped, std::size_t count) {
   note("skipped",
-       fmt::format("{} of {}, which {} there already", skipped, count, skipped == 1 ? "is" : "are"));
+       fmt::format("{} of {}, which already {}", skipped, count, skipped == 1 ? "exists" : "exist"));
 }
 
 int Console::note_signal(int signal, const std::string& text) {

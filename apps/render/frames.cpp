@@ -87,7 +87,7 @@ class FrameRun {
     const renderer::FrameStatus status = renderer::read_frame_status(before);
     if (!settings_.exposure) settings_.exposure = status.exposure;
     if (!status.of_animation && scene_.motion.any())
-      throw CacheFileError(fmt::format("{}: made of the file's nodes, expected a cache of --frames", before));
+      throw CacheFileError(fmt::format("{}: made for a still picture, expected a cache of --frames", before));
     return before;
   }
 
@@ -100,10 +100,10 @@ class FrameRun {
       sequence.measure_exposure([] { return stop_signal() != 0; });
       const float exposure = *sequence.settings().exposure;
       const std::vector<int>& sample = sequence.sample();
-      console_.note("exposure",
-                    fmt::format("{:.1f} EV by the light of the film, {} of its frames 0 to {}; --exposure "
-                                "{:.1f} keeps it",
-                                exposure, sample.size(), sample.back(), exposure));
+      console_.note(
+          "exposure",
+          fmt::format("{:.1f} EV, measured in {} of the frames 0 to {}; --exposure {:.1f} sets the same",
+                      exposure, sample.size(), sample.back(), exposure));
     }
     settings_ = sequence.settings();
     return sequence;
@@ -120,12 +120,10 @@ class FrameRun {
                        (frames.size() < 2 || common_step(frames) == 1);
     if (whole || last == 0 || (!cached && !carried)) return;
     console_.note(
-        "part",
-        fmt::format(
-            "of the film, frames 0 to {}: its frames differ a little from those of a run of all, by {}{}{}; "
-            "--integrator path --temporal off keeps them the same",
-            last, cached ? "a kept cache" : "", cached && carried ? " and " : "",
-            carried ? "carried light" : ""));
+        "part", fmt::format("of an animation with frames 0 to {}: these frames differ slightly from those of "
+                            "a complete run, because of {}{}{}; --integrator path --temporal off avoids this",
+                            last, cached ? "the reused cache" : "", cached && carried ? " and " : "",
+                            carried ? "reused samples" : ""));
   }
 
   /// Makes the cache, or takes what is in `before`. Returns the last frame that is done, where the run is
@@ -214,8 +212,8 @@ class FrameRun {
 
   int note_stop(int signal, std::size_t done, std::size_t count) {
     return console_.note_signal(
-        signal, fmt::format("after {} of {} frames; the one that was under way is lost{}", done, count,
-                            settings_.render.checkpoint.file.empty() ? "" : ", --resume goes on with it"));
+        signal, fmt::format("after {} of {} frames; the unfinished frame is lost{}", done, count,
+                            settings_.render.checkpoint.file.empty() ? "" : ", --resume continues with it"));
   }
 
   /// After the frames of each group: reports those of all. Returns the exit code.

@@ -99,8 +99,8 @@ void PictureMaker::note_failed_output(const std::exception_ptr& error, bool agai
   try {
     std::rethrow_exception(error);
   } catch (const std::exception& failure) {
-    console_.warn(fmt::format("{}; the picture goes on{}", failure.what(),
-                              again ? ", and it will be tried again" : ""));
+    console_.warn(fmt::format("{}; rendering continues{}", failure.what(),
+                              again ? ", and the write will be retried" : ""));
   }
   if (!again && !failed_output_) failed_output_ = error;
 }

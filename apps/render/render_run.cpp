@@ -27,7 +27,7 @@ scene::LoadOptions load_options(const RenderSettings& settings) {
 void note_loaded(Console& console, const RenderSettings& settings, const scene::Scene& scene) {
   console.warn(scene.warnings);
   if (settings.load.time && scene.animations.empty() && settings.frames.turntable == 0)
-    console.warn("the file has no animations: all times are alike");
+    console.warn("the file has no animations: --time has no effect");
   if (!settings.verbose) return;
   console.progress.clear();
   log_detail(fmt::format("{}: {} triangles, {} instances, {} punctual lights", settings.scene,

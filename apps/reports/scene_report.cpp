@@ -155,7 +155,7 @@ std::vector<std::string> describe_media(const scene::Scene& scene, const SceneRe
     lines.push_back(fmt::format("'{}', ior {:.4g}, priority {:.4g}", instance->name,
                                 scene.material_of(*instance).ior, instance->dielectric_priority));
   }
-  lines.emplace_back("(bodies that overlap, the one that fills the space first)");
+  lines.emplace_back("(overlapping bodies, the one with the highest priority first)");
   return lines;
 }
 

@@ -110,7 +110,7 @@ std::string summary(const RenderSettings& settings, const RunReport& report) {
   std::string error;
   if (s.estimated_error) {
     error = fmt::format("; estimated error {}", format_percent(*s.estimated_error));
-    if (renderer::uses_cache(settings.render.integrator)) error += " beside the cache's bias";
+    if (renderer::uses_cache(settings.render.integrator)) error += " without the cache's bias";
   }
   if (settings.render.max_error > 0.0 && (s.ended_by == EndedBy::spp || s.ended_by == EndedBy::time_limit)) {
     error += fmt::format(", not {}: {} ended it first", format_percent(settings.render.max_error),
@@ -123,17 +123,18 @@ std::string summary(const RenderSettings& settings, const RunReport& report) {
   text += fmt::format("rays      {}, {:.2f} million/s\n", format_count(rays),
                       per_second(rays, ray_seconds(s)) * 1e-6);
   if (s.bounces_of_paths) {
-    text +=
-        fmt::format("integrator {}, chosen because light paths have {:.1f} bounces; --integrator {} {}\n",
-                    enum_name(settings.render.integrator), *s.bounces_of_paths,
-                    renderer::uses_cache(settings.render.integrator) ? "path" : "nrc",
-                    renderer::uses_cache(settings.render.integrator) ? "is without a cache" : "has a cache");
+    text += fmt::format(
+        "integrator {}, chosen because light paths have {:.1f} bounces; --integrator {} {}\n",
+        enum_name(settings.render.integrator), *s.bounces_of_paths,
+        renderer::uses_cache(settings.render.integrator) ? "path" : "nrc",
+        renderer::uses_cache(settings.render.integrator) ? "renders without a cache" : "uses a cache");
   }
   if (!s.denoiser.empty()) text += fmt::format("denoiser  {}\n", s.denoiser);
   text += ranks_text(report);
   if (!settings.exposure) {
-    text += fmt::format("exposure  {:.1f} EV by the picture's light; --exposure {:.1f} keeps it\n",
-                        report.exposure, report.exposure);
+    text +=
+        fmt::format("exposure  {:.1f} EV, from the picture's brightness; --exposure {:.1f} sets the same\n",
+                    report.exposure, report.exposure);
   }
   text += fmt::format("memory    peak {}: geometry {}, BVH {}, textures {}\n",
                       format_bytes(peak_resident_bytes()), format_bytes(s.geometry_bytes),
@@ -154,7 +155,7 @@ std::string stop_notice(const RenderSettings& settings, const RunReport& report)
   if (in_training && !o.cache.cache_out.empty()) {
     text += fmt::format("; the cache '{}' was not written", o.cache.cache_out);
   }
-  if (!o.checkpoint.file.empty()) text += "; --resume goes on with it";
+  if (!o.checkpoint.file.empty()) text += "; --resume continues with it";
   return text;
 }
 

@@ -41,12 +41,11 @@ void complete_view(RenderSettings& settings) {
   const bool sharp = !(lens.aperture > 0.0f) && !(lens.f_stop > 0.0f);
   for (const auto& [name, used] : {std::pair("focus", !lens.focus.empty()), {"blades", lens.blades > 0}}) {
     if (sharp && used && settings.given.contains(name))
-      throw BadOption({name, "", "without an aperture all is sharp", "`aperture` with it"});
+      throw BadOption({name, "", "has no effect without an aperture", "`aperture`"});
   }
   if (!settings.eye && !settings.target && !settings.up) return;
   if (!settings.eye || !settings.target) {
-    throw BadOption(
-        {settings.eye ? "target" : "eye", "", "it is missing", "a view by hand with `eye` and `target`"});
+    throw BadOption({settings.eye ? "target" : "eye", "", "is missing", "both `eye` and `target`"});
   }
   LookAt look_at{.eye = vector(*settings.eye), .target = vector(*settings.target)};
   if (settings.up) look_at.up = vector(*settings.up);
@@ -54,9 +53,9 @@ void complete_view(RenderSettings& settings) {
   const Eigen::Vector3d direction = look_at.target.cast<double>() - look_at.eye.cast<double>();
   const Eigen::Vector3d up = look_at.up.cast<double>();
   if (direction.norm() == 0.0) {
-    throw BadOption({"target", text(*settings.target), "is the place of `eye`", "another"});
+    throw BadOption({"target", text(*settings.target), "is the position of `eye`", "another"});
   }
-  if (up.norm() == 0.0) throw BadOption({"up", "0,0,0", "is no direction", "a vector that is not zero"});
+  if (up.norm() == 0.0) throw BadOption({"up", "0,0,0", "is not a direction", "a vector that is not zero"});
   if (direction.normalized().cross(up.normalized()).norm() < 1e-6) {
     throw BadOption({"up", fmt::format("{},{},{}", up.x(), up.y(), up.z()), "is parallel to the view",
                      "another direction"});
@@ -73,9 +72,9 @@ void complete_frames(RenderSettings& settings) {
   settings.load.shutter = frames.shutter_seconds();
   if (!frames.range) {
     if (settings.given.contains("fps") && !frames.shutter.is_open())
-      throw BadOption({"fps", "", "there are no frames", "`frames` or `turntable` with it"});
+      throw BadOption({"fps", "", "there are no frames", "`frames` or `turntable`"});
     if (frames.shutter.is_open() && !settings.load.time)
-      throw BadOption({"shutter", "", "without a moment nothing moves", "`time` or `frames` with it"});
+      throw BadOption({"shutter", "", "has no effect without a time", "`time` or `frames`"});
     return;
   }
   if (settings.load.time) throw BadOption({"time", "", "excludes `frames`", "one of them"});
@@ -117,7 +116,7 @@ ErrorParts why_without_effect(const Option& option, const RenderOptions& options
   ErrorParts why;
   for (const Requirement& need : option.marks.needs) {
     if (why.problem.empty() && !need.met(options))
-      why = {.problem = "it has no effect here", .expected = std::string("it with ") + need.expected};
+      why = {.problem = "has no effect here", .expected = need.expected};
   }
   if (option.marks.of_cache && !uses_cache(options.integrator)) why = no_cache(options);
   why.option = option.name;
@@ -168,7 +167,7 @@ void adapt_cache(RenderSettings& settings) {
   }
   if (o.source == TrainingSource::picture && !training_gives_samples(settings.render)) {
     if (settings.given.contains("training-points")) {
-      throw BadOption({"training-points", "picture", "does not go with these options",
+      throw BadOption({"training-points", "picture", "cannot be combined with these options",
                        "`view` final and no `candidates`, `samples-per-point` and `train-path-length`"});
     }
     o.source = TrainingSource::camera;
@@ -190,10 +189,11 @@ ErrorParts why_black(Aov aov, const RenderOptions& o, bool frames) {
     case AovNeeds::nothing:
       return {};
     case AovNeeds::frames:
-      return frames ? ErrorParts{} : ErrorParts{.problem = "a still has no motion", .expected = "`frames`"};
+      return frames ? ErrorParts{}
+                    : ErrorParts{.problem = "a still picture has no motion", .expected = "`frames`"};
     case AovNeeds::light:
       if (o.integrator == Integrator::ao || o.integrator == Integrator::nao)
-        return integrator("has no light", "`integrator` path or nrc");
+        return integrator("renders no radiance", "`integrator` path or nrc");
       if (uses_cache(o.integrator) && o.cache.view == CacheOutput::cache)
         return {.problem = "the cache's answers have no parts", .expected = "`view` final"};
       return {};
@@ -207,7 +207,7 @@ ErrorParts why_black(Aov aov, const RenderOptions& o, bool frames) {
       if (!uses_cache(o.integrator)) return no_cache(o);
       return o.cache.encoding != neural::FeatureEncoding::hash_grid
                  ? ErrorParts{}
-                 : ErrorParts{.problem = "the encoding 'hashgrid' does not store by triangle",
+                 : ErrorParts{.problem = "the encoding 'hashgrid' stores nothing per triangle",
                               .expected = "`encoding` gate"};
   }
   return {};
@@ -227,9 +227,9 @@ void check_checkpoint(const RenderSettings& settings) {
   const CheckpointOptions& checkpoint = settings.render.checkpoint;
   if (!checkpoint.file.empty()) return;
   if (checkpoint.resume)
-    throw BadOption({"resume", "", "there is nothing to go on with", "`checkpoint` FILE with it"});
+    throw BadOption({"resume", "", "there is no checkpoint to continue from", "`checkpoint` FILE"});
   if (settings.given.contains("checkpoint-every"))
-    throw BadOption({"checkpoint-every", "", "there is nothing to write", "`checkpoint` FILE with it"});
+    throw BadOption({"checkpoint-every", "", "there is no checkpoint to write", "`checkpoint` FILE"});
 }
 
 void require_file(const std::string& what, const std::string& path) {
@@ -248,16 +248,16 @@ void check_frame_groups(const RenderSettings& settings) {
   const auto refuse = [](const char* problem, const std::string& expected) {
     throw BadOption({"frame-groups", "", problem, expected});
   };
-  if (!frames.range) refuse("there are no frames", "`frames` or `turntable` with it");
+  if (!frames.range) refuse("there are no frames", "`frames` or `turntable`");
   if (const std::size_t count = frames.range->numbers().size();
       count < static_cast<std::size_t>(frames.groups))
-    refuse("there are fewer frames", fmt::format("at most their number, {}", count));
+    refuse("there are fewer frames than groups", fmt::format("at most {}", count));
   if (!options.checkpoint.file.empty())
-    refuse("a checkpoint is of one frame after the other",
-           "no `checkpoint`; `skip-existing` leaves out those that are done");
+    refuse("a checkpoint needs all frames in one sequence",
+           "no `checkpoint`; `skip-existing` skips finished frames");
   if (!options.choose_integrator) check_frame_groups(frames, options.integrator);
   if (options.denoise.denoiser != DenoiserKind::none && options.denoise.temporal)
-    refuse("denoised frames take over light of the one before", "`temporal` off or `denoiser` none");
+    refuse("denoised frames reuse samples of the previous frame", "`temporal` off or `denoiser` none");
 }
 
 }  // namespace
@@ -290,7 +290,7 @@ void check_frame_groups(const FrameSettings& frames, Integrator integrator) {
   if (frames.groups > 1 && uses_cache(integrator))
     throw BadOption(
         {"frame-groups", "",
-         fmt::format("frames of a kept cache depend on the one before, and the integrator is '{}'",
+         fmt::format("frames with a cache depend on the previous frame, and the integrator is '{}'",
                      enum_name(integrator)),
          "`integrator` path or ao"});
 }
@@ -304,7 +304,7 @@ void complete_settings(RenderSettings& settings) {
     throw BadOption({"sky", "", "excludes `environment`", "one of them"});
   complete_frames(settings);
   if (!settings.load.animation.empty() && !settings.load.time)
-    throw BadOption({"animation", "", "without a moment nothing is animated", "`time` or `frames` with it"});
+    throw BadOption({"animation", "", "has no effect without a time", "`time` or `frames`"});
   check_picture(settings.render);
   resolve_integrator(settings);
   check_light_groups(settings.render);

@@ -98,7 +98,7 @@ std::size_t find_flag(const std::string& text, const std::string& flag) {
 std::shared_ptr<const ConfigFile> accept_config_file(CLI::App& root) {
   auto config = std::make_shared<ConfigFile>();
   root.config_formatter(std::make_shared<SubcommandConfig>(root, config));
-  root.set_config("--config", "", "Read flags from this file; those on the command line win")
+  root.set_config("--config", "", "Read flags from this file; flags on the command line override them")
       ->type_name("FILE.toml");
   root.allow_config_extras(CLI::config_extras_mode::error);
   return config;

@@ -140,7 +140,7 @@ double parse_fps(const std::string& option, const std::string& text) {
   if (!(fps >= kFps.min && fps <= kFps.max))
     throw BadOption(
         {option, text, "",
-         fmt::format("a number or two with a / such as 30000/1001, from {} to {}", kFps.min, kFps.max)});
+         fmt::format("a number or a fraction such as 30000/1001, from {} to {}", kFps.min, kFps.max)});
   return fps;
 }
 
@@ -168,14 +168,15 @@ bool has_frame_place(std::string_view name) {
 void refuse_frame_place(std::string_view option, const std::string& name) {
   const std::string place = find_place(file_of(name));
   if (place.empty()) return;
-  throw BadOption({std::string(option), name, fmt::format("has the place of a frame's number, '{}'", place),
+  throw BadOption({std::string(option), name,
+                   fmt::format("contains '{}', the place of a frame number", place),
                    "a name without it for a single picture"});
 }
 
 void require_frame_place(std::string_view option, const std::string& name) {
   if (has_frame_place(name)) return;
   throw BadOption({std::string(option), name, "is one file for all frames",
-                   "a place for their number in its name: %04d"});
+                   "a place for the frame number in its name: %04d"});
 }
 
 std::string name_of_frame(std::string_view name, int frame) {

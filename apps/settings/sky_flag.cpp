@@ -131,7 +131,7 @@ renderer::SkyOptions read_sky(const std::string& option, const std::string& text
     if (found == readers.end())
       refuse_choice(option, part.name, "turbidity|sun|date|time|place|zone|ground|size|intensity");
     if (!given.insert(part.name).second)
-      throw BadOption({option, "", fmt::format("{}= is there twice", part.name), "it once"});
+      throw BadOption({option, "", fmt::format("{}= is given twice", part.name), "it once"});
     if (part.values.size() != found->second.values)
       throw BadOption({option, whole, "", found->second.values == 2 ? "two numbers a,b" : "one value"});
     try {
@@ -145,11 +145,11 @@ renderer::SkyOptions read_sky(const std::string& option, const std::string& text
   const bool dated = given.contains("date");
   for (const char* other : {"time", "place"}) {
     if (dated && !given.contains(other))
-      throw BadOption({option, "", fmt::format("{}= is missing", other), "it with date="});
+      throw BadOption({option, "", fmt::format("{}= is missing", other), "it together with date="});
   }
   for (const char* other : {"time", "place", "zone"}) {
     if (!dated && given.contains(other))
-      throw BadOption({option, "", "date= is missing", fmt::format("it with {}=", other)});
+      throw BadOption({option, "", "date= is missing", fmt::format("it together with {}=", other)});
   }
   if (dated && given.contains("sun"))
     throw BadOption({option, "", "sun= and date= exclude each other", "one of them"});

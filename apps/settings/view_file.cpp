@@ -47,7 +47,7 @@ void read_view_file(RenderSettings& settings) {
     if (option == table.end()) {
       std::vector<std::string> names;
       for (const Option& o : table) names.push_back(o.name);
-      throw InputError(fmt::format("the view '{}' has the member '{}', expected some of {}",
+      throw InputError(fmt::format("the view '{}' has the unknown member '{}', expected some of {}",
                                    settings.view_file, name, fmt::join(names, ", ")));
     }
     if (value.is_null() || replaced(settings.given, *option)) continue;

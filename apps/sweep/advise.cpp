@@ -78,7 +78,7 @@ AdviceReport give_advice(const ordered_json& results, const AdviceLimits& limits
   std::erase_if(all, [](const MeasuredRun& run) {
     return !run.mean("errors", "flip") || !run.mean("seconds", "total");
   });
-  if (all.empty()) return {"", "no cell of this sweep is done"};
+  if (all.empty()) return {"", "no cell of this sweep is finished"};
   std::vector<std::string> unmet;
   std::string text = fmt::format("{}, without loading the scene and building\n", limits_text(limits));
   std::vector<MeasuredRun> rest = all;
@@ -93,9 +93,10 @@ AdviceReport give_advice(const ordered_json& results, const AdviceLimits& limits
     const std::string name =
         fmt::format("{} ({})", group.front().word("scene"), reference_text(group.front(), all));
     if (!advice.met) unmet.push_back(name);
-    text += fmt::format("{}: {}{}\n  {}\n", name,
-                        advice.met ? "" : fmt::format("none of {} met it; the nearest is ", group.size()),
-                        describe(*advice.best), advice.best->word("command"));
+    text += fmt::format(
+        "{}: {}{}\n  {}\n", name,
+        advice.met ? "" : fmt::format("none of {} is within the limits; the closest is ", group.size()),
+        describe(*advice.best), advice.best->word("command"));
   }
   if (unmet.empty()) return {text, ""};
   return {text, fmt::format("no configuration of {} has a {}", fmt::join(unmet, ", "), limits_text(limits))};

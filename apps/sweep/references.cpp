@@ -41,7 +41,7 @@ std::optional<Picture> read_made(const std::string& file) {
   try {
     return renderer::read_image(file);
   } catch (const InputError& error) {
-    log_warning(fmt::format("{}; the reference is made anew", error.what()));
+    log_warning(fmt::format("{}; the reference is rendered again", error.what()));
     return std::nullopt;
   }
 }
@@ -70,7 +70,7 @@ std::optional<Picture> render_half(const scene::Scene& scene, const RenderSettin
   try {
     picture = render();
   } catch (const CacheFileError& error) {
-    log_warning(fmt::format("{}; the reference is begun anew", error.what()));
+    log_warning(fmt::format("{}; the reference is started again", error.what()));
     fs::remove(options.checkpoint.file);
     picture = render();
   }

@@ -58,7 +58,7 @@ bool has_axis(const std::string& flag) {
 
 void check_vary(const std::string& flag) {
   for (const Instead& other : kInstead) {
-    if (flag == other.flag) throw BadOption({"vary", flag, "has a flag of its own", other.use});
+    if (flag == other.flag) throw BadOption({"vary", flag, "has its own flag", other.use});
   }
   if (option_names([](const Option& option) {
         return option.marks.stage == OptionStage::load;
@@ -69,7 +69,7 @@ void check_vary(const std::string& flag) {
     std::vector<std::string> names = base_flag_names();
     for (std::string& name : names) name.erase(0, 2);
     throw BadOption({"vary", flag,
-                     "is no flag of render that decides a picture, see gatelight render --help-all", "",
+                     "is not a flag of render that affects a picture, see gatelight render --help-all", "",
                      did_you_mean(flag.substr(2), names)});
   }
 }
@@ -123,7 +123,7 @@ void read_scene_flag(const std::string& text, const std::vector<NamedAxis>& axes
   const std::string word = text.substr(colon + 1, equals - colon - 1);
   const std::string flag = word.rfind("--", 0) == 0 ? word : fmt::format("--{}", word);
   if (flag == "--seed" || !is_base_flag(flag)) {
-    throw BadOption({"for", flag, "is no flag that all cells of a scene can have"});
+    throw BadOption({"for", flag, "is not a flag that applies to all cells of a scene"});
   }
   for (const NamedAxis& named : axes) {
     if (named.axis.flag != flag) continue;
@@ -144,7 +144,7 @@ void refuse_flags_of_rows(const SweepArguments& words, const std::vector<SweepBl
   }
   const auto check = [&](const std::string& flag, const std::string& given_as) {
     if (!flags.contains(flag)) return;
-    throw BadOption({given_as, flag, fmt::format("is what rows of `preset` {} are named after", words.preset),
+    throw BadOption({given_as, flag, fmt::format("defines rows of `preset` {}", words.preset),
                      "other flags or no preset"});
   };
   for (const auto& [flag, value] : words.base) check(flag, flag.substr(2));
@@ -197,7 +197,8 @@ void read_seeds(const SweepArguments& words, int seeds, SweepRequest& request) {
   }
   for (const std::uint32_t seed : kReferenceSeeds) {
     if (seed < request.first_seed || seed > last) continue;
-    throw BadOption({"seed", fmt::format("{}", seed), "is that of the references", "others for the cells"});
+    throw BadOption(
+        {"seed", fmt::format("{}", seed), "is the seed of the references", "other seeds for the cells"});
   }
 }
 
@@ -220,7 +221,7 @@ std::vector<SweepBlock> read_named_runs(const SweepArguments& words) {
   for (const NamedRun& run : runs) {
     for (const auto& [flag, value] : run.flags) {
       if (contains(kOwnFlags, flag) || has_axis(flag) || (flag != "--seed" && is_base_flag(flag))) continue;
-      throw BadOption({"run", flag, fmt::format("in '{}' decides no picture", run.name)});
+      throw BadOption({"run", flag, fmt::format("in '{}' does not affect a picture", run.name)});
     }
     blocks.push_back({.row = run.name, .run = run.flags});
   }

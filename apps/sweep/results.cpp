@@ -134,14 +134,12 @@ ordered_json read_results(const std::string& folder) {
   const std::string path = results_file(folder);
   std::ifstream file(path);
   if (!file) {
-    throw InputError(
-        fmt::format("cannot read '{}': there is no sweep in this folder, expected one that has "
-                    "been made with --output",
-                    path));
+    throw InputError(fmt::format(
+        "cannot read '{}': there is no sweep in this folder, expected the --output of a sweep", path));
   }
   ordered_json results = read_json_file(path);
   if (!results.is_object() || !results.contains("schema") || !results["cells"].is_array()) {
-    throw InputError(fmt::format("cannot read '{}': it is no result of a sweep", path));
+    throw InputError(fmt::format("cannot read '{}': it is not the result of a sweep", path));
   }
   if (results["schema"] != kSweepSchema) {
     throw InputError(fmt::format("cannot read '{}': its schema is {}, expected {}", path,

@@ -42,7 +42,7 @@ void make_folder(const fs::path& folder) {
   fs::create_directories(folder, error);
   if (error || !fs::is_directory(folder)) {
     throw OutputError(fmt::format("cannot make the folder '{}': {}", folder.string(),
-                                  error ? error.message() : "there is a file of this name"));
+                                  error ? error.message() : "a file with this name exists"));
   }
 }
 
@@ -89,9 +89,9 @@ class SweepRun {
     if (!survey()) {
       // The results of an earlier call are more complete, and stay.
       progress_.clear();
-      print_notice(
-          fmt::format("stopped by signal {} before the first cell; the same command goes on", stop_signal()),
-          kSignalBase + stop_signal());
+      print_notice(fmt::format("stopped by signal {} before the first cell; the same command continues",
+                               stop_signal()),
+                   kSignalBase + stop_signal());
       return kSignalBase + stop_signal();
     }
     print_versions();
@@ -115,7 +115,7 @@ class SweepRun {
     }
     if (!finished) {
       progress_.clear();
-      print_notice(fmt::format("stopped by signal {} with {} of {} cells in '{}'; the same command goes on",
+      print_notice(fmt::format("stopped by signal {} with {} of {} cells in '{}'; the same command continues",
                                stop_signal(), cells - failed, plan_.cell_count(), settings_.folder),
                    kSignalBase + stop_signal());
       return kSignalBase + stop_signal();
@@ -125,7 +125,7 @@ class SweepRun {
       print_failure(
           {kPartly,
            fmt::format("{} of {} cells failed; the others are in '{}'", failed, cells, settings_.folder),
-           "the same command tries them again"});
+           "the same command repeats them"});
       return kPartly;
     }
     return kDone;
@@ -263,8 +263,8 @@ AdviceReport advice_of_folder(const std::string& folder, const AdviceLimits& lim
   try {
     return give_advice(results, limits);
   } catch (const ordered_json::exception& error) {
-    throw InputError(
-        fmt::format("cannot read '{}': it is no result of a sweep: {}", results_file(folder), error.what()));
+    throw InputError(fmt::format("cannot read '{}': it is not the result of a sweep: {}",
+                                 results_file(folder), error.what()));
   }
 }
 
@@ -273,8 +273,8 @@ int print_advice(const AdviceReport& advice) {
   write_text("-", advice.text);
   if (advice.unmet.empty()) return kDone;
   print_failure({kNoAdvice, "--advise: " + advice.unmet,
-                 advice.text.empty() ? "look into its failures"
-                                     : "the nearest is on stdout; raise the limit or measure more"});
+                 advice.text.empty() ? "see its failures"
+                                     : "the closest is on stdout; raise the limit or measure more"});
   return kNoAdvice;
 }
 

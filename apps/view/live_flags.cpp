@@ -57,8 +57,8 @@ LiveFlags changed(LiveFlags flags, const FlagChange& change) {
   for (const auto& [name, value] : change) {
     const auto option = live_options().find(name);
     if (option == live_options().end())
-      throw BadOption(
-          {one_line(name), "", "a window does not change it", "it on the command line of `gatelight view`"});
+      throw BadOption({one_line(name), "", "cannot be changed in the window",
+                       "it on the command line of `gatelight view`"});
     if (!value) {
       flags.erase(name);
       continue;

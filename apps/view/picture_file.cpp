@@ -31,8 +31,7 @@ std::uint64_t PictureFile::change(const std::string& name, const FlagChange& fla
     return option.marks.in_window && option.marks.stage == OptionStage::output;
   });
   for (const auto& [flag, value] : flags) {
-    if (!known.contains(flag))
-      throw BadOption({one_line(flag), "", "a finished picture does not change by it"});
+    if (!known.contains(flag)) throw BadOption({one_line(flag), "", "has no effect on a finished picture"});
   }
   const std::lock_guard lock(mutex_);
   Viewer& of = viewer(name);

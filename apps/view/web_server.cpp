@@ -98,7 +98,8 @@ WebServer::WebServer(int port, AnswerRequest answer) : implementation_(std::make
   const bool any = port == 0;
   const int bound = any ? server.bind_to_any_port(kHost) : server.bind_to_port(kHost, port) ? port : -1;
   if (bound < 0)
-    throw BadOption({"port", fmt::format("{}", port), "cannot be listened on", "a free port; 0 takes any"});
+    throw BadOption(
+        {"port", fmt::format("{}", port), "cannot be opened for listening", "a free port; 0 takes any"});
   implementation_->port = port = bound;
   implementation_->address = fmt::format("http://{}:{}/{}/", kHost, port, implementation_->secret);
 }

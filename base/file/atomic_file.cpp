@@ -81,7 +81,7 @@ void check_writable(const fs::path& path) {
   if (status.type() == fs::file_type::none) refuse(path, error.message());
   if (fs::is_directory(status)) refuse(path, "it is a folder");
   if (fs::exists(status) && ::access(target.c_str(), W_OK) != 0) {
-    refuse(path, fmt::format("it is there already and cannot be written: {}", describe(errno)));
+    refuse(path, fmt::format("it exists and cannot be written: {}", describe(errno)));
   }
   // Renaming over a device or a pipe would replace it.
   if (fs::exists(status) && !fs::is_regular_file(status)) refuse(path, "it is not a regular file");
@@ -118,7 +118,7 @@ void AtomicFile::write(const void* data, std::size_t bytes) {
 
 void AtomicFile::commit() {
   // When a write fails inside a seek, the next flush does not report it, but ferror() does.
-  if (std::ferror(stream_) != 0) refuse(target_, "a part of it could not be written");
+  if (std::ferror(stream_) != 0) refuse(target_, "it could not be written completely");
   if (std::fflush(stream_) != 0 || ::fsync(::fileno(stream_)) != 0) fail(errno);
   const std::string link = link_of(::fileno(stream_));
   const auto link_to = [&](const fs::path& name) {

@@ -14,15 +14,15 @@ Animator::Animator(Document& document, Warnings& warnings) {
   for (const Channel& channel : document.channels()) {
     std::optional<Property> property = find_property(document.model(), channel.pointer, warnings);
     if (!property) {
-      warnings.add(fmt::format("{}: '{}' is nothing that can be animated here, it is ignored", channel.where,
-                               channel.pointer));
+      warnings.add(
+          fmt::format("{}: '{}' cannot be animated here and is ignored", channel.where, channel.pointer));
       continue;
     }
     std::optional<Curve> curve = reader.read(channel, property->shape);
     if (!curve) continue;
     if (!animated.insert(channel.pointer).second)
       warnings.add(
-          fmt::format("{}: a second channel for {}, the last one counts", channel.where, channel.pointer));
+          fmt::format("{}: a second channel for {}; the last one is used", channel.where, channel.pointer));
     tracks_.push_back({channel.pointer, *std::move(curve), *std::move(property)});
   }
 }

@@ -41,7 +41,7 @@ std::size_t find_animation(const json& root, const std::string& name, std::strin
   for (std::size_t i = 0; i < names.size(); ++i)
     known += fmt::format("{}{} ({})", i == 0 ? "" : ", ", i, names[i]);
   throw make_error(file, "animations",
-                   fmt::format("animation '{}' is not there, expected {}{}", name,
+                   fmt::format("there is no animation '{}', expected {}{}", name,
                                names.empty() ? "none: the file has no animations" : "one of: " + known,
                                did_you_mean(name, names)));
 }
@@ -63,9 +63,9 @@ std::vector<std::size_t> without_rivals(const json& animations, Warnings& warnin
     }
   }
   if (!rivals.empty()) {
-    warnings.add(
-        fmt::format("animations of what an earlier one animates are left out: {}; `animation` chooses one",
-                    fmt::join(rivals, ", ")));
+    warnings.add(fmt::format(
+        "animations of values that an earlier animation changes are ignored: {}; `animation` chooses one",
+        fmt::join(rivals, ", ")));
   }
   return chosen;
 }

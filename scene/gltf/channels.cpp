@@ -34,7 +34,7 @@ std::optional<std::size_t> checked_index(const json& object, const char* name, s
   const std::optional<std::size_t> index = index_of(object, name, count);
   if (index) return index;
   throw make_error(file, fmt::format("{}.{}", where, name),
-                   fmt::format("{}, expected an index into {} ({} there)",
+                   fmt::format("{}, expected an index into {} (of size {})",
                                member->dump(-1, ' ', false, json::error_handler_t::replace), list, count));
 }
 
@@ -77,7 +77,7 @@ void join_samplers(json& animation, std::size_t index, const References& referen
     if (const auto target = channel.find("target"); target != channel.end())
       checked_index(*target, "node", "nodes", references.size_of("nodes"), file, where + ".target");
     std::string pointer = pointer_of(channel);
-    if (pointer.empty()) warnings.add(where + ": no target, it is ignored");
+    if (pointer.empty()) warnings.add(where + ": no target; the channel is ignored");
     if (pointer.empty() || references.hides(pointer)) {
       channel = json::object();
       continue;

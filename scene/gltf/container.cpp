@@ -32,8 +32,9 @@ void split_glb(Container& container, const std::string& file, Warnings& warnings
   if (version != 2) throw make_error(file, "header", fmt::format("version {}, expected 2", version));
   const std::uint32_t length = read_u32(bytes, 8);
   if (length < 20 || length > bytes.size()) {
-    warnings.add(fmt::format("header: length {}, expected 20 to {} (the size of the file); all is read",
-                             length, bytes.size()));
+    warnings.add(
+        fmt::format("header: length {}, expected 20 to {} (the size of the file); the whole file is read",
+                    length, bytes.size()));
   } else if (length < bytes.size()) {
     warnings.add(
         fmt::format("header: {} bytes after the end of the .glb are ignored", bytes.size() - length));
@@ -57,7 +58,7 @@ void split_glb(Container& container, const std::string& file, Warnings& warnings
                        fmt::format("length {}, expected at most {}", size, bytes.size() - offset));
     }
     if (size > bytes.size() - offset) {
-      warnings.add(fmt::format("{}: length {}, expected at most {}, which is taken", where, size,
+      warnings.add(fmt::format("{}: length {}, expected at most {}, which is used", where, size,
                                bytes.size() - offset));
       size = bytes.size() - offset;
     }

@@ -165,7 +165,7 @@ Curve::Times CurveReader::read_times(int accessor) {
 std::optional<Curve> CurveReader::read(const Channel& channel, const CurveShape& shape) {
   Curve curve{read_times(channel.times), {}, 0, channel.interpolation, shape};
   if (curve.times->empty()) {
-    warnings_.add(channel.where + ": no keys, it is ignored");
+    warnings_.add(channel.where + ": no keys; it is ignored");
     return std::nullopt;
   }
   const AccessorReader reader(document_, channel.values);

@@ -53,7 +53,7 @@ void Document::check_model_size(std::size_t bytes) const {
   const std::size_t text = container_.json.size();
   const std::size_t most = std::max(kSmallScene, text * kMaxPerCharacter);
   if (bytes <= most) return;
-  fail("JSON", fmt::format("objects of {} MiB in memory, expected at most {} of a text of {} bytes",
+  fail("JSON", fmt::format("objects of {} MiB in memory, expected at most {} for a text of {} bytes",
                            bytes >> 20, most >> 20, text));
 }
 
@@ -86,11 +86,10 @@ void Document::claim(std::size_t bytes, std::string_view where) const {
     claimed_ += bytes;
     return;
   }
-  fail(where,
-       fmt::format(
-           "{:.0f} MiB of vertices, triangles, instances and keys up to here, expected at most {} of a file "
-           "of {} bytes with its buffers",
-           (static_cast<double>(claimed_) + static_cast<double>(bytes)) / 0x1p20, most >> 20, read_bytes_));
+  fail(where, fmt::format("{:.0f} MiB of vertices, triangles, instances and keys so far, expected at most {} "
+                          "for a file of {} bytes including its buffers",
+                          (static_cast<double>(claimed_) + static_cast<double>(bytes)) / 0x1p20, most >> 20,
+                          read_bytes_));
 }
 
 Bytes Document::range(int buffer, std::size_t offset, std::size_t length, std::string_view where) const {

@@ -70,7 +70,7 @@ void check_extensions(const json& root, const std::vector<std::string>& ignored,
   for (const json& names : {required, root.value("extensionsUsed", json::array())}) {
     for (const std::string name : names) {
       if (!is_supported(name))
-        warnings.add(fmt::format("the extension {} is not supported and ignored", name));
+        warnings.add(fmt::format("the extension {} is not supported; it is ignored", name));
     }
   }
 }

@@ -36,7 +36,7 @@ void check_size(const Reader& reader, std::size_t value_bytes, const Document& d
   if (width < 1 || height < 1 || width > kMaxSide || height > kMaxSide || channels < 1) {
     throw image_error(
         document, where,
-        fmt::format("{}x{} pixels of {} channels, at most {} a side", width, height, channels, kMaxSide));
+        fmt::format("{}x{} pixels of {} channels, at most {} per side", width, height, channels, kMaxSide));
   }
   const std::size_t size = static_cast<std::size_t>(width) * static_cast<std::size_t>(height) *
                            static_cast<std::size_t>(channels) * value_bytes;
@@ -81,11 +81,11 @@ bool is_webp(Bytes bytes) {
 /// Describes data in a format of an extension that no library here reads, and names a converter.
 std::string_view known_format(Bytes bytes) {
   if (starts_with(bytes, {0xab, 'K', 'T', 'X', ' ', '2', '0', 0xbb}))
-    return "a KTX2 picture without another to fall back to ('ktx extract IN.ktx2 OUT.png' of KTX-Software "
-           "converts it)";
+    return "a KTX2 picture without a fallback in another format ('ktx extract IN.ktx2 OUT.png' of "
+           "KTX-Software converts it)";
   if (starts_with(bytes, {'D', 'D', 'S', ' '}))
-    return "a DDS picture without another to fall back to ('convert IN.dds OUT.png' of ImageMagick converts "
-           "it)";
+    return "a DDS picture without a fallback in another format ('convert IN.dds OUT.png' of ImageMagick "
+           "converts it)";
   return "neither PNG, JPEG nor WebP data";
 }
 
@@ -123,8 +123,8 @@ Image load_image(const Document& document, int index, const ImageOptions& option
     image = read(document, source, where, name, options.normal_map, warnings);
   } catch (const InputError& e) {
     if (options.missing_is_error)
-      throw InputError(fmt::format("{}; `missing` white renders without it", e.what()));
-    warnings.add(fmt::format("{}; white instead", e.what()));
+      throw InputError(fmt::format("{}; `missing` warn replaces it with white", e.what()));
+    warnings.add(fmt::format("{}; it becomes white", e.what()));
     image = {"", 1, 1, 3, {255, 255, 255}};
   }
   image.name = std::move(name);

@@ -274,9 +274,8 @@ class Loader {
   void require_memory(std::size_t bytes) const {
     const MemoryRoom room = memory_room();
     if (bytes > room.bytes)
-      throw OutOfMemory(
-          fmt::format("{}: what moves while the shutter is open needs {} MiB, and {} leaves {} MiB", path_,
-                      bytes >> 20, room.limit, room.bytes >> 20));
+      throw OutOfMemory(fmt::format("{}: motion while the shutter is open needs {} MiB, and {} leaves {} MiB",
+                                    path_, bytes >> 20, room.limit, room.bytes >> 20));
   }
 
   void take_image_light(Scene& scene) {

@@ -112,7 +112,8 @@ class Converter {
       m.scatter_anisotropy = float_or(*e, "scatterAnisotropy", 0.0f);
       for (const char* const texture : {"scatterStrengthTexture", "multiscatterColorTexture"}) {
         if (find_member(*e, texture))
-          warnings_.add(fmt::format("{}.{}: it is not read, and the factor stands for it", where_, texture));
+          warnings_.add(
+              fmt::format("{}.{}: the texture is ignored, only the factor is used", where_, texture));
       }
       if (m.has_volume()) {
         m.multiscatter_color *= strength;
@@ -244,11 +245,11 @@ class Converter {
     }
     if (texcoord > 1) {
       warnings_.add(
-          fmt::format("{}.{}: texCoord {} is not supported, the texture is ignored", where_, name, texcoord));
+          fmt::format("{}.{}: texCoord {} is not supported; the texture is ignored", where_, name, texcoord));
       return result;
     }
     if (image_of(element(document_.model().textures, index)) < 0) {
-      warnings_.add(fmt::format("textures[{}]: has no image that can be read, it is ignored", index));
+      warnings_.add(fmt::format("textures[{}]: no readable image; the texture is ignored", index));
       return result;
     }
     result.texture = index;

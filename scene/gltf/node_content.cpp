@@ -22,7 +22,7 @@ Affine rigid(const Document& document, int node, const Eigen::Affine3d& world) {
   const Eigen::Vector3d z = world.linear().col(2).stableNormalized();
   const Eigen::Vector3d x = world.linear().col(1).cross(z).stableNormalized();
   if (!(z.norm() > 0.5) || !(x.norm() > 0.5)) {
-    document.fail(fmt::format("nodes[{}]", node), "a camera scaled to nothing, expected a direction of view");
+    document.fail(fmt::format("nodes[{}]", node), "a camera with a scale of 0, expected a view direction");
   }
   Affine result = Affine::Identity();
   result.linear().col(0) = x.cast<float>();
@@ -68,7 +68,7 @@ std::optional<PunctualLight> make_light(const Document& document, int node_index
   } else if (source.type == "spot") {
     light.type = LightType::spot;
   } else if (source.type != "point") {
-    warnings.add(where + ": a light without a known type is left out");
+    warnings.add(where + ": a light of unknown type is ignored");
     return std::nullopt;
   }
   light.intensity = vector_or<Color>(source.color, Color::Ones()).max(0.0f);
@@ -85,10 +85,9 @@ std::optional<PunctualLight> make_light(const Document& document, int node_index
     const double outer = std::min(source.spot.outerConeAngle, static_cast<double>(kPi) / 2.0);
     const double inner = source.spot.innerConeAngle;
     if (!(inner < outer)) {
-      warnings.add(
-          fmt::format("{}.spot: innerConeAngle {}, expected less than outerConeAngle {}; a hard edge is "
-                      "taken",
-                      where, inner, outer));
+      warnings.add(fmt::format(
+          "{}.spot: innerConeAngle {}, expected less than outerConeAngle {}; the cone gets a hard edge",
+          where, inner, outer));
     }
     light.cos_inner = static_cast<float>(std::cos(std::min(inner, outer)));
     light.cos_outer = static_cast<float>(std::cos(outer));
@@ -141,7 +140,7 @@ std::vector<Eigen::Affine3d> read_instances(const Document& document,
       if (q.norm() > 1e-6) {
         t.rotate(q.normalized());
       } else {
-        warnings.add(where + ": a ROTATION of length 0, expected a unit quaternion; no rotation is taken");
+        warnings.add(where + ": a ROTATION of length 0, expected a unit quaternion; it is ignored");
       }
     }
     if (!scales.empty()) t.scale(Eigen::Map<const Vec3>(&scales[i * 3]).cast<double>());

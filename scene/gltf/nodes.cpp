@@ -34,7 +34,7 @@ Transform local_transform(const Document& document, int index, Warnings& warning
   if (q.norm() > 1e-12) {
     t.rotate(q.normalized());
   } else {
-    warnings.add(where("rotation") + ": 0 0 0 0, expected a unit quaternion; no rotation is taken");
+    warnings.add(where("rotation") + ": 0 0 0 0, expected a unit quaternion; it is ignored");
   }
   t.scale(vector_or<Eigen::Vector3d>(node.scale, Eigen::Vector3d::Ones()));
   return t;
@@ -157,11 +157,11 @@ class GraphWalk {
       for (int p = parents_[root]; p >= 0 && !below; p = parents_[static_cast<std::size_t>(p)])
         below = is_listed[static_cast<std::size_t>(p)] != 0;
       if (is_taken[root]) {
-        warn("is listed twice, shown once");
+        warn("is listed twice; it is shown once");
       } else if (below) {
-        warn("is no root, it is shown as a child");
+        warn("is not a root; it is shown as a child");
       } else {
-        if (parents_[root] >= 0) warn("is no root, it is shown without its parent");
+        if (parents_[root] >= 0) warn("is not a root; it is shown without its parent");
         shown.push_back(listed[i]);
       }
       is_taken[root] = 1;
@@ -171,7 +171,7 @@ class GraphWalk {
 
   const Transform& checked(const Transform& t, std::string_view where) const {
     if (!t.matrix().cast<float>().allFinite()) {
-      document_.fail(where, "a transform to the world that is not finite, expected finite numbers");
+      document_.fail(where, "a world transform that is not finite, expected finite numbers");
     }
     return t;
   }
@@ -216,7 +216,7 @@ class GraphWalk {
       const std::map<std::string, int> attributes = instance_attributes(*instancing);
       claim_instances(attributes, mesh, where);
       if (attributes.empty()) {
-        warnings_.add(where + ": no attributes that give the number of instances; drawn once");
+        warnings_.add(where + ": no attribute gives the number of instances; the mesh is shown once");
         add(placement, base);
       }
       for (const Transform& t : read_instances(document_, attributes, where, warnings_)) {
@@ -313,7 +313,7 @@ class GraphWalk {
     const float priority = value.IsNumber() ? static_cast<float>(value.GetNumberAsDouble()) : kInfinity;
     if (std::isfinite(priority)) return priority;
     warnings_.add(
-        fmt::format("nodes[{}].extras.{}: {}, expected a finite number, taken as 0", index, kName,
+        fmt::format("nodes[{}].extras.{}: {}, expected a finite number; 0 is used", index, kName,
                     value.IsString() ? value.Get<std::string>() : fmt::format("{}", value.Get<double>())));
     return 0.0f;
   }
@@ -326,7 +326,7 @@ class GraphWalk {
     const Eigen::Matrix3f linear = single.linear();
     const bool nothing = normal_matrix(single).isZero(0.0f) || linear.isZero(0.0f);
     if (nothing && !placement.moves) {
-      warnings_.add("meshes that are scaled to nothing are left out");
+      warnings_.add("meshes with a scale of 0 are ignored");
       return;
     }
     if (nothing) {

@@ -90,7 +90,7 @@ int find_variant(const Document& document, const std::vector<std::string>& names
   const auto found = std::find(names.begin(), names.end(), name);
   if (found != names.end()) return static_cast<int>(found - names.begin());
   document.fail("KHR_materials_variants",
-                fmt::format("variant '{}' is not there, expected {}{}", name,
+                fmt::format("there is no variant '{}', expected {}{}", name,
                             names.empty() ? "none: the file has no variants"
                                           : fmt::format("one of: {}", fmt::join(names, ", ")),
                             did_you_mean(name, names)));

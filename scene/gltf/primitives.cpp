@@ -53,11 +53,11 @@ Mesh load_primitive(const Document& document, const Pose& pose, int primitive_in
   Mesh mesh;
   mesh.name = source.name;
   if (primitive.mode < TINYGLTF_MODE_TRIANGLES) {
-    warnings.add("points and lines are not drawn");
+    warnings.add("points and lines are not rendered");
     return mesh;
   }
   if (!primitive.attributes.contains("POSITION")) {
-    warnings.add(fmt::format("{}: no POSITION, it is left out", where));
+    warnings.add(fmt::format("{}: no POSITION; it is ignored", where));
     return mesh;
   }
   const tinygltf::Value* extension = find_extension(primitive.extensions, "KHR_draco_mesh_compression");
@@ -72,7 +72,7 @@ Mesh load_primitive(const Document& document, const Pose& pose, int primitive_in
     mesh.triangles = read_triangles(document, primitive, vertices.count(), where, warnings);
   }
   if (mesh.triangles.empty()) {
-    warnings.add(fmt::format("{}: no triangles, it is left out", where));
+    warnings.add(fmt::format("{}: no triangles; it is ignored", where));
     return mesh;
   }
   const std::vector<std::uint32_t> selection = compact_vertices(mesh.triangles, vertices.count());

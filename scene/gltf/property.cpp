@@ -104,7 +104,7 @@ Place place_in_node(tinygltf::Node& node, Names path, Warnings& warnings) {
   const bool in_matrix = path[0] == "translation" || path[0] == "rotation" || path[0] == "scale";
   if (in_matrix && !node.matrix.empty()) {
     take_apart(node);
-    warnings.add("an animated node has a matrix, which is taken apart into translation, rotation and scale");
+    warnings.add("an animated node has a matrix, which is decomposed into translation, rotation and scale");
   }
   if (path[0] == "translation") return &node.translation;
   if (path[0] == "rotation") return &node.rotation;

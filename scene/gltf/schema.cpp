@@ -192,7 +192,7 @@ class Checker {
         if (!rule.target.empty()) return fmt::format("one of {}", rule.target);
         return fmt::format("an integer from {:.0f} to {:.0f}", rule.low, rule.high);
       case Kind::index:
-        return fmt::format("an index into {} ({} there)", rule.target, references_.size_of(rule.target));
+        return fmt::format("an index into {} (of size {})", rule.target, references_.size_of(rule.target));
       case Kind::number:
       case Kind::anything:
         break;

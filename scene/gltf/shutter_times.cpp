@@ -100,7 +100,7 @@ ShutterTimes::ShutterTimes(const Animator& animator, double middle, double lengt
   const bool few = corners.size() <= static_cast<std::size_t>(kMaxShutterIntervals);
   if (few) divide(points, 0);
   if (few && intervals() <= kMaxShutterIntervals) return;
-  warnings.add(fmt::format("{} keys while the shutter is open: motion is blurred between {} even times",
+  warnings.add(fmt::format("{} keys while the shutter is open: motion blur uses {} evenly spaced times",
                            corners.size(), kMaxShutterIntervals + 1));
   centre.jumps = closing.jumps = false;
   divide({points.front(), centre, closing}, kMaxShutterIntervals / 2);

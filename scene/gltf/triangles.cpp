@@ -57,8 +57,7 @@ Triangles read_triangles(const Document& document, const tinygltf::Primitive& pr
     triangles.resize(count / 3);
     if (count > 0) fill(triangles.data()->data());
   } else {
-    warnings.add(
-        fmt::format("{}: {} indices are no whole number of triangles, the rest is ignored", where, count));
+    warnings.add(fmt::format("{}: {} indices are not a multiple of 3; the rest is ignored", where, count));
     std::vector<std::uint32_t> list(count);
     fill(list.data());
     triangles.reserve(count / 3);

@@ -127,7 +127,8 @@ OwnedBytes read_uri(std::string_view uri, const UriOptions& options, std::string
   }
   std::string name = decode_percent(rest);
   if (name.find('\\') != std::string::npos && !is_there(options.folder / name)) {
-    warnings.add(fmt::format("{}: '{}' has backslashes, read as slashes", where, uri_name(uri)));
+    warnings.add(
+        fmt::format("{}: '{}' contains backslashes, which are read as slashes", where, uri_name(uri)));
     std::replace(name.begin(), name.end(), '\\', '/');
   }
   if (name.find('\0') != std::string::npos) throw refuse("has a zero byte");

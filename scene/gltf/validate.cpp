@@ -82,7 +82,7 @@ void check_version(json& root, std::string_view file, Warnings& warnings) {
   }
   if (!asset.contains("version") || !asset["version"].is_string()) {
     if (!root.contains("nodes")) throw make_error(file, "asset.version", "missing, expected glTF 2.0");
-    warnings.add("asset.version: missing, taken as 2.0");
+    warnings.add("asset.version: missing; 2.0 is assumed");
     asset["version"] = "2.0";
   }
   const auto least = asset.find("minVersion");
@@ -129,8 +129,7 @@ void complete_lights(json& root, Warnings& warnings) {
     json& type = lights[i]["type"];
     if (type.is_null()) type = "unknown";
     if (type != "spot" || lights[i].contains("spot")) continue;
-    warnings.add(
-        fmt::format("extensions.KHR_lights_punctual.lights[{}]: no spot, its defaults are taken", i));
+    warnings.add(fmt::format("extensions.KHR_lights_punctual.lights[{}]: no spot; the defaults are used", i));
     lights[i]["spot"] = json::object();
   }
 }
@@ -145,10 +144,10 @@ void check_views(json& root, std::string_view file, Warnings& warnings) {
     if (view.contains("byteStride")) {
       const std::size_t stride = view["byteStride"];
       if (stride == 0) {
-        warnings.add(fmt::format("{}: byteStride 0, read as missing", where));
+        warnings.add(fmt::format("{}: byteStride 0; it is ignored", where));
         view.erase("byteStride");
       } else if (stride % 4 != 0 || stride > 252) {
-        warnings.add(fmt::format("{}: byteStride {}, expected a multiple of 4 up to 252; taken as it is",
+        warnings.add(fmt::format("{}: byteStride {}, expected a multiple of 4 up to 252; it is used anyway",
                                  where, stride));
       }
     }

@@ -71,8 +71,9 @@ TEST_F(Film, OfWhichAPartIsRenderedSaysWhatDiffers) {
   const auto with = [&](const Words& more) {
     return words_of("--preset standard --integrator nrc --train-steps 16 --denoiser none", {}, more);
   };
-  expect_message(part(with({"--frames", "0:1"})), {"frames 0 to 48", "a kept cache", "--integrator path"});
-  expect_message(part({"--frames", "3", "--denoiser", "auto"}), {"carried light", "--temporal off"});
+  expect_message(part(with({"--frames", "0:1"})),
+                 {"frames 0 to 48", "the reused cache", "--integrator path"});
+  expect_message(part({"--frames", "3", "--denoiser", "auto"}), {"reused samples", "--temporal off"});
   EXPECT_EQ(part(with({"--frames", "0:4", "--fps", "2"})), "") << "all of it";
   EXPECT_EQ(part({"--frames", "3"}), "");
   EXPECT_EQ(part(with({"--turntable", "2"})), "") << "all of the turn";

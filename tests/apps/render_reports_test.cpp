@@ -116,7 +116,7 @@ TEST_F(RenderReports, APresetFindsTheExposureOfItsPngAndReportsIt) {
   const Output found = expect_done(exposed({"-o", path("auto.png"), "--stats", path("auto.json")}));
   const double stops = json::parse(read_file(path("auto.json")))["exposure"];
   EXPECT_NE(stops, 0.0);
-  EXPECT_THAT(found.err, HasSubstr(fmt::format("--exposure {:.1f} keeps it", stops)));
+  EXPECT_THAT(found.err, HasSubstr(fmt::format("--exposure {:.1f} sets the same", stops)));
   const Output kept = exposed({"-o", path("kept.png"), "--exposure", fmt::format("{:.1f}", stops)});
   EXPECT_EQ(read_file(path("auto.png")), read_file(path("kept.png")));
   EXPECT_THAT(kept.err, Not(HasSubstr("exposure")));

@@ -10,8 +10,8 @@ TEST(ErrorParts, MakeOneLine) {
   EXPECT_EQ(sentence({"spp", "", "", "an integer"}), "spp: '' is not an integer");
   EXPECT_EQ(sentence({"stack", "1,2,3", "has 3 levels", "at most 2"}),
             "stack: '1,2,3' has 3 levels, expected at most 2");
-  EXPECT_EQ(sentence({"fps", "", "there are no frames", "`frames` with it"}),
-            "fps: there are no frames, expected `frames` with it");
+  EXPECT_EQ(sentence({"fps", "", "there are no frames", "`frames` or `turntable`"}),
+            "fps: there are no frames, expected `frames` or `turntable`");
   EXPECT_EQ(sentence({"mis", "powr", "", "one of power|balance", "; did you mean 'power'?"}),
             "mis: 'powr' is not one of power|balance; did you mean 'power'?");
   EXPECT_EQ(sentence({"", "", "a mesh has no position", "one"}), "a mesh has no position, expected one");

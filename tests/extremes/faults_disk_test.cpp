@@ -121,7 +121,7 @@ TEST_F(FaultyDisk, ARemovedFolderLosesOnlyItsOwnOutputs) {
              {path("gone/a.exr"), path("stays.exr"), path("gone/c")}));
   ASSERT_TRUE(process.wait_for_error_text("\"progress\""));
   std::filesystem::remove_all(folder / "gone");
-  ASSERT_TRUE(process.wait_for_error_text("it will be tried again"));
+  ASSERT_TRUE(process.wait_for_error_text("the write will be retried"));
   process.send(SIGTERM);
   const Output output = process.finish();
   EXPECT_EQ(output.exit_code, 3) << output.err;

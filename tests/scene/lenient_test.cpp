@@ -138,7 +138,7 @@ TEST(Lenient, LightsWithoutATypeOrItsMembers) {
   light["type"] = "ambient";
   scene = file.load();
   EXPECT_TRUE(scene.lights.empty());
-  expect_messages(scene.warnings, {{"type", "ambient"}, {"lights[0]", "left out"}});
+  expect_messages(scene.warnings, {{"type", "ambient"}, {"lights[0]", "ignored"}});
 }
 
 TEST(Lenient, SamplersRepeatWhereTheirModeIsUnknown) {
@@ -172,7 +172,7 @@ TEST(Lenient, EmptyAndPositionlessPrimitivesAreLeftOut) {
     with.node({{"mesh", with.mesh(primitive)}});
     const Scene scene = with.load();
     EXPECT_EQ(count_triangles(scene), 1u) << primitive;
-    expect_messages(scene.warnings, {{"meshes[1].primitives[0]", "left out"}});
+    expect_messages(scene.warnings, {{"meshes[1].primitives[0]", "ignored"}});
   }
   GltfBuilder with = file;
   with.root["meshes"].push_back({{"primitives", json::array()}});

@@ -58,7 +58,7 @@ TEST(SkyOptionsText, BadPartsAreNamed) {
            {"size=nan", {"sky", "size=nan", "", "number"}},
            {"intensity=-1", {"sky", "intensity=-1", "", "0"}},
            {"moon=1", {"sky", "moon", "", "turbidity|sun"}},
-           {"ground=0.1,ground=0.2", {"sky", "", "ground= is there twice", "once"}},
+           {"ground=0.1,ground=0.2", {"sky", "", "ground= is given twice", "once"}},
            {"date=2026-02-29,time=1:00,place=1,2", {"sky", "date=2026-02-29", "", "date"}},
            {"date=26-02-01,time=1:00,place=1,2", {"sky", "date=26-02-01", "", "1900"}},
            {"date=2026-257-21,time=1:00,place=1,2", {"sky", "date=2026-257-21", "", "date"}},

@@ -77,7 +77,7 @@ TEST(SweepAdvice, IsTextWithACommandForEachSceneAndKind) {
   EXPECT_THAT(
       text,
       AllOf(HasSubstr("room (path): hash, 8 steps, 4 spp: FLIP 0.2500, 2.5 s\n  gatelight render hash81"),
-            HasSubstr("hall (path): none of 1 met it; the nearest is gate, 8 steps"),
+            HasSubstr("hall (path): none of 1 is within the limits; the closest is gate, 8 steps"),
             HasSubstr("room (cache): bare")));
   EXPECT_THAT(give_advice(results, {.max_error = 0.41, .max_seconds = {}}).text,
               AllOf(HasSubstr("FLIP of at most 0.41 with every seed"),

@@ -52,7 +52,7 @@ TEST_F(SweepCommand, AdviceNeedsNeitherSceneNorTime) {
   EXPECT_THAT(one.out, AllOf(HasSubstr("cornell-box (path): "), HasSubstr("\n  gatelight render "),
                              HasSubstr("-o out.exr\n")));
   const Output none = run_gatelight_inside(words("out", {"--advise", "--max-error", "0"}));
-  EXPECT_THAT(none.out, HasSubstr("none of 4 met it; the nearest is"));
+  EXPECT_THAT(none.out, HasSubstr("none of 4 is within the limits; the closest is"));
   expect_failure(none, 8, {"--advise", "cornell-box (path)", "0"});
   const Output again = run_gatelight_inside({"sweep", "-o", path("out"), "--advise", "--max-error", "0"});
   EXPECT_EQ(again.exit_code, 8);
