@@ -180,5 +180,5 @@ function makeSaveControls() {
       getSelection().selectAllChildren(command);
     }
   });
-  parent.append(element("p", {className: "note", textContent: "Saved is the last whole picture. This command makes the same one:"}), command);
+  parent.append(element("p", {className: "note", textContent: "The last complete picture is saved. This command renders the same one:"}), command);
 }

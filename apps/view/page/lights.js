@@ -48,7 +48,7 @@ function makeLightControls(scene) {
   if (single !== parent) parent.append(single);
   for (const name of names.slice(0, kMostLights)) stops(single, name, [name], of.names);
   if (names.length > kMostLights) single.append(element("p", {className: "note", textContent: `and ${names.length - kMostLights} more`}));
-  if (!names.length) parent.append(element("p", {className: "note", textContent: "The file has no lights with names."}));
+  if (!names.length) parent.append(element("p", {className: "note", textContent: "The file has no named lights."}));
 }
 
 function makeSkyControls(scene) {
@@ -72,7 +72,7 @@ function makeSkyControls(scene) {
     changes.send({sky: said ? [...said, ...common].join(",") : null, environment: kind === "none" ? "none" : null});
     show();
   };
-  chooser(parent, "Light around", [["file", "as given"], ["none", "none"], ["sky", "sky, by the sun"], ["date", "sky, by the date"]], kind, value => {
+  chooser(parent, "Environment", [["file", "as given"], ["none", "none"], ["sky", "sky, by the sun"], ["date", "sky, by the date"]], kind, value => {
     kind = value;
     send();
   });
@@ -89,10 +89,10 @@ function makeSkyControls(scene) {
   said("Hours ahead of UTC", "text", "zone");
   part(both, "Haze", "turbidity", 1, 10, 0.1, x => x.toFixed(1));
   part(both, "Brightness", "intensity", 0, 4, 0.05, x => x.toFixed(2));
-  slider(parent, "Turned", {min: 0, max: 360, step: 1, value: Number(flagOf(scene, "environment-rotation", 0)), text: x => `${x}°`, changed: value => {
+  slider(parent, "Rotation", {min: 0, max: 360, step: 1, value: Number(flagOf(scene, "environment-rotation", 0)), text: x => `${x}°`, changed: value => {
     changes.send({"environment-rotation": String(value)});
   }});
-  slider(parent, "Scaled", {min: -6, max: 6, step: 0.1, value: Math.log2(Number(flagOf(scene, "environment-scale", 1))), text: x => `${signed(x)} EV`, changed: value => {
+  slider(parent, "Brightness", {min: -6, max: 6, step: 0.1, value: Math.log2(Number(flagOf(scene, "environment-scale", 1))), text: x => `${signed(x)} EV`, changed: value => {
     changes.send({"environment-scale": String(2 ** value)});
   }});
   const noFog = -12;  // the logarithm of its density

@@ -7,14 +7,14 @@ const short = x => x === null ? "-" : Math.abs(x) >= 1e4 || (x !== 0 && Math.abs
 function describeState(status, shown) {
   if (status.error) return `No picture: ${status.error}`;
   if (status.complete && !shown?.spp) return "A finished picture";
-  if (status.complete) return `Finished: ${shown ? shown.spp : "?"} samples a pixel, after ${shown ? shown.seconds.toFixed(1) : "?"} s`;
-  if (status.waits) return "Waits for another tab";
-  const what = {draft: "Draft", preview: "Preview", refined: "Preview with more samples", final: "Final picture"}[status.stage] || "Waits";
+  if (status.complete) return `Finished: ${shown ? shown.spp : "?"} samples per pixel, after ${shown ? shown.seconds.toFixed(1) : "?"} s`;
+  if (status.waits) return "Waiting for another tab";
+  const what = {draft: "Draft", preview: "Preview", refined: "Preview with more samples", final: "Final picture"}[status.stage] || "Waiting";
   const how = {
-    scout: "looks where the cache is needed",
-    train: `trains the cache, step ${status.steps} of ${status.all_steps}, loss ${short(status.loss)}`,
-    render: `${status.samples.toFixed(1)} of ${status.spp} samples a pixel`,
-    denoise: "takes the noise out",
+    scout: "finding surfaces for the cache",
+    train: `training the cache, step ${status.steps} of ${status.all_steps}, loss ${short(status.loss)}`,
+    render: `${status.samples.toFixed(1)} of ${status.spp} samples per pixel`,
+    denoise: "denoising",
   }[status.phase];
   return `${what}: ${how}`;
 }
@@ -23,7 +23,7 @@ function describeReadings(status, shown) {
   const last = status.last || {}, rows = [];
   if (shown) rows.push(["Shown", `${shown.stage}, ${shown.width} x ${shown.height}`], ["After the change", `${shown.seconds.toFixed(2)} s`]);
   if (last.estimated_error) rows.push(["Estimated error", `${(100 * last.estimated_error).toFixed(1)} %`]);
-  if (last.samples_per_second) rows.push(["Samples a second", `${(last.samples_per_second / 1e6).toFixed(2)} million`]);
+  if (last.samples_per_second) rows.push(["Samples per second", `${(last.samples_per_second / 1e6).toFixed(2)} million`]);
   if (last.training_steps) rows.push(["Training steps", String(last.training_steps)], ["Loss", short(last.loss)]);
   if (last.cache_bytes) rows.push(["Cache", bytes(last.cache_bytes)]);
   if (last.scene_bytes) rows.push(["Scene", bytes(last.scene_bytes)]);

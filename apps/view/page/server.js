@@ -14,7 +14,7 @@ async function ask(path, parameters = {}, options = {}) {
     } catch {
       text = "";
     }
-    if (response.status === 404 && !text) text = "this address is of an earlier run: open the one that the program printed";
+    if (response.status === 404 && !text) text = "this address belongs to an earlier run: open the address that the program printed";
     const error = new Error(text || `the program answers with ${response.status}`);
     error.answered = true;
     throw error;
