@@ -160,8 +160,8 @@ LayoutPlan solve_plan(PlanScene& scene) {
   const auto make_wanted = [&]() -> LayoutPlan {
     if (auto plan = make_plan(scene, {options.node_spacing, options.resolution_scale}, kMaxNodes))
       return std::move(*plan);
-    throw BadConfiguration({"node-spacing", "", "it gives more than 2^32-1 nodes",
-                            "a greater one, or a limit by `cache-memory`"});
+    throw BadConfiguration({"node-spacing", "", "needs more than 2^32-1 nodes",
+                            "a greater one, or a limit with `cache-memory`"});
   };
   if (options.memory_budget == 0) return make_wanted();
   const std::uint64_t node_bytes = options.features * options.bytes_per_feature;

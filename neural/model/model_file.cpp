@@ -115,15 +115,15 @@ ordered_json description(const SafetensorsReader& file, const std::string& key) 
 
 void expect_same_model(const SafetensorsReader& file, const Model& model, const TrainingOptions& options) {
   std::string differences = list_differences(description(file, "network"), describe_network(model));
-  if (!differences.empty()) file.fail(fmt::format("it is of another configuration: {}", differences));
+  if (!differences.empty()) file.fail(fmt::format("it has another configuration: {}", differences));
   differences = list_differences(description(file, "arrays"), describe_arrays(options));
-  if (!differences.empty()) file.fail(fmt::format("it was trained under other options: {}", differences));
+  if (!differences.empty()) file.fail(fmt::format("it was trained with other options: {}", differences));
   const auto digest = file.metadata().find("layout_digest");
   if (digest == file.metadata().end() || digest->second != layout_digest(model)) {
     differences = list_differences(description(file, "layout"), describe_layout(model));
-    file.fail(fmt::format("it is of another layout: {}", differences.empty()
-                                                             ? "the surfaces are others, under equal options"
-                                                             : differences));
+    file.fail(fmt::format(
+        "it is of another layout: {}",
+        differences.empty() ? "the surfaces differ, although the options are equal" : differences));
   }
 }
 

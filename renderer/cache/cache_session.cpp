@@ -34,7 +34,7 @@ void check_options(const RenderOptions& all) {
   const CacheOptions& options = all.cache;
   if (options.source == TrainingSource::picture && !training_gives_samples(all))
     throw BadOption(
-        {"training-points", "picture", "does not go with these options",
+        {"training-points", "picture", "cannot be combined with these options",
          "`integrator` nrc, `view` final and no `candidates`, `samples-per-point` and `train-path-length`"});
   if (static_cast<double>(options.batch) * options.samples_per_point > kMaxPaths) {
     throw BadOption({"samples-per-point", fmt::format("{}", options.samples_per_point),

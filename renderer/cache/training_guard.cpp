@@ -85,7 +85,7 @@ void TrainingGuard::look_at_answers(std::span<const float> targets, const neural
   brightest = std::max(brightest, bright / values);
   if (loss > kGreatestLoss * std::max(ones / values, kFloor)) {
     throw TrainingDiverged(
-        fmt::format("training step {}: a loss of {:.3g}, where answering the mean has one of {:.3g}",
+        fmt::format("training step {}: the loss is {:.3g}, but that of a constant answer is {:.3g}",
                     steps_done, loss, ones / values));
   }
 
@@ -101,7 +101,7 @@ void TrainingGuard::look_at_answers(std::span<const float> targets, const neural
   const double mean = count > 0.0 ? sum / count : 0.0;
   if (!(mean <= kGreatestBrightness * brightest)) {
     throw TrainingDiverged(
-        fmt::format("training step {}: answers of {:.3g} in the mean, where targets are {:.3g}", steps_done,
+        fmt::format("training step {}: the mean answer is {:.3g}, but the mean target is {:.3g}", steps_done,
                     mean, brightest));
   }
   if (steps >= kFirstLooked && loss_average <= kGoodAverage * loss_least && loss <= kGoodGroup * loss_average)

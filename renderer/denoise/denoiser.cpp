@@ -53,7 +53,7 @@ std::string failure_to_denoise(const std::function<void()>& run) {
   } catch (const MissingDenoiser& error) {
     return error.what();
   } catch (const std::bad_alloc&) {
-    return "denoising it needs more memory than there is";
+    return "denoising it needs more memory than is available";
   }
 }
 

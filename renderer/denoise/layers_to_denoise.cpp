@@ -146,7 +146,7 @@ std::vector<LayersToDenoise> layers_to_denoise(const Picture& picture, const Lay
       is_usual(names.normal)) {
     const Layer& shown = picture.layers.front();
     if (is_denoising_layer(shown.name) || !color_channels(shown))
-      throw InputError("has no picture beside the layers of --aov denoising");
+      throw InputError("has no picture besides the layers of --aov denoising");
     chosen = {own_layers(picture)};
   } else if (names.color.empty()) {
     chosen = usual_layers(picture);

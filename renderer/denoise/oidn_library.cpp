@@ -139,7 +139,7 @@ OidnLibrary load(const std::string& place) {
     return loaded;
   }
   throw MissingDenoiser(fmt::format("{} was not found: {}{}", kName, refused,
-                                    place.empty() ? " (scripts/setup brings it)" : ""));
+                                    place.empty() ? " (scripts/setup installs it)" : ""));
 }
 
 }  // namespace

@@ -234,7 +234,7 @@ Checkpoint::Checkpoint(const std::filesystem::path& path) : file_(path) {
 
 void Checkpoint::expect(const CheckpointIdentity& identity, int spp) const {
   const std::string differences = list_differences(file_.metadata(), kOptions, identity.options);
-  if (!differences.empty()) file_.fail(fmt::format("it is of other options: {}", differences));
+  if (!differences.empty()) file_.fail(fmt::format("it has other options: {}", differences));
   expect_scene(file_, identity.scene);
   if (cache_setup_ && cache_setup_->sides.size() != identity.instances)
     file_.fail(

@@ -30,8 +30,8 @@ void require_alpha(const Samples& samples, const BackgroundOptions& background) 
   using Kind = BackgroundOptions::Kind;
   if (background.is_separate() && background.kind != Kind::transparent && samples.alpha.empty())
     throw InputError(
-        "has no samples of its alpha, expected the layers of --aov denoising for a picture with a background "
-        "of its own");
+        "has no samples of its alpha, expected the layers of --aov denoising for a picture with a separate "
+        "background");
 }
 
 void put_first(Picture& picture, const std::string& name) {

@@ -81,8 +81,8 @@ bool may_need_sky(const scene::Scene& scene, const RenderOptions& options) {
 std::string sky_warning(const scene::Scene& scene, const RenderOptions& options, bool asks_for_sky) {
   if (asks_for_sky && options.environment.automatic) {
     return fmt::format(
-        "{} has no light that shows its surfaces: a soft sky lights it; `environment` none, "
-        "r,g,b or FILE replaces it",
+        "{} has no light that illuminates its surfaces: a soft sky is added; `environment` none, r,g,b or "
+        "FILE replaces it",
         scene.path);
   }
   if (!asks_for_sky && shows_light(options.integrator) && options.environment.none() &&
@@ -261,9 +261,9 @@ void PreparedPicture::set_camera(const CameraOptions& chosen) {
   if (view.lens_radius > 0.0f && !(view.focus_distance > 0.0f)) {
     view.focus_distance = distance_in_the_middle(*world, Camera(view, options.width, options.height),
                                                  options.width, options.height);
-    focus =
-        fmt::format("the lens is focused at {:.4g} m, on the middle of the picture; `focus` {:.4g} keeps it",
-                    view.focus_distance, view.focus_distance);
+    focus = fmt::format(
+        "the lens is focused at {:.4g} m, the distance at the picture's centre; `focus` {:.4g} sets the same",
+        view.focus_distance, view.focus_distance);
   }
   camera = camera_of_size(options.width, options.height);
   // Rays of an orthographic camera begin at many places.

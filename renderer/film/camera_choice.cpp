@@ -25,7 +25,7 @@ constexpr float kSensor = 36.0f;
 Affine look_at(const LookAt& view) {
   using Eigen::Vector3d;
   const Vector3d z = view.eye.cast<double>() - view.target.cast<double>();
-  if (!(z.squaredNorm() > 0.0)) throw BadOption({"target", "", "it is the point of `eye`", "another"});
+  if (!(z.squaredNorm() > 0.0)) throw BadOption({"target", "", "it equals `eye`", "another"});
   const Vector3d back = z.normalized();
   const Vector3d up = view.up.cast<double>();
   Vector3d x = up.cross(back);

@@ -45,7 +45,7 @@ void expect_scene(const SafetensorsReader& file, const NamedTexts& scene,
     if (same || std::find(ignored.begin(), ignored.end(), part.name) != ignored.end()) continue;
     parts += fmt::format("{}{}", parts.empty() ? "" : ", ", part.name);
   }
-  if (!parts.empty()) file.fail(fmt::format("it is of another scene: it differs in {}", parts));
+  if (!parts.empty()) file.fail(fmt::format("it belongs to another scene: it differs in {}", parts));
 }
 
 }  // namespace gatelight::renderer

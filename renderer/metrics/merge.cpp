@@ -100,9 +100,7 @@ void PictureMerger::add(const NamedPicture& named) {
     const std::uint64_t spp = samples_per_pixel(named, named.picture.metadata.at("spp"));
     if (__builtin_add_overflow(spp_, spp, &spp_)) {
       throw InputError(
-          fmt::format("'{}' says it has {} samples per pixel: with those of the others more than "
-                      "64 bits hold",
-                      named.name, spp));
+          fmt::format("'{}' says it has {} samples per pixel: their sum exceeds 64 bits", named.name, spp));
     }
     weight = static_cast<double>(spp);
   }

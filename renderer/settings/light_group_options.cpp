@@ -34,8 +34,9 @@ void check_light_groups(const std::vector<LightGroup>& groups) {
     };
     if (group.name.empty() || !std::all_of(group.name.begin(), group.name.end(), is_letter))
       refuse("has no such name", "one of letters, digits, '-' and '_'");
-    if (group.name == kRestGroup) refuse("has the name of the lights that no group names", "another name");
-    if (!names.insert(group.name).second) refuse("is a group that is there twice", "it once");
+    if (group.name == kRestGroup)
+      refuse("has the name that is reserved for all other lights", "another name");
+    if (!names.insert(group.name).second) refuse("is given twice", "it once");
     if (group.lights.empty() || std::any_of(group.lights.begin(), group.lights.end(),
                                             [](const std::string& light) { return light.empty(); }))
       refuse("lacks a light", "NAME=LIGHT,LIGHT");
