@@ -95,7 +95,7 @@ std::string describe_subcommand(const CLI::App& root) {
   for (const CLI::App* app : root.get_subcommands([](const CLI::App*) { return true; }))
     names.push_back(app->get_name());
   const std::string got =
-      rest.empty() ? "a subcommand is missing" : fmt::format("'{}' is no subcommand", cut(rest.front()));
+      rest.empty() ? "a subcommand is missing" : fmt::format("'{}' is not a subcommand", cut(rest.front()));
   return fmt::format("{}, expected {} or {}{}", got, fmt::join(names.begin(), names.end() - 1, ", "),
                      names.back(), rest.empty() ? "" : meant_subcommand(rest.front(), names));
 }

@@ -187,8 +187,8 @@ void refuse_flags_of_scenes(const CLI::App& app) {
                                          "progress", "quiet",  "verbose"};
   for (const std::string& name : given_names(app)) {
     if (allowed.contains(name)) continue;
-    throw BadOption({name, "", "without SCENE it has no effect",
-                     "SCENE with it, or only `advise`, its limits and `output`"});
+    throw BadOption(
+        {name, "", "has no effect without SCENE", "SCENE, or only `advise`, its limits and `output`"});
   }
 }
 
@@ -197,7 +197,7 @@ void check(const SweepCall& call, const CLI::App& app) {
   const bool limited = s.limits.max_error || s.limits.max_seconds;
   if (limited && !s.advise) {
     throw BadOption(
-        {s.limits.max_error ? "max-error" : "max-time", "", "it is for advice", "`advise` with it"});
+        {s.limits.max_error ? "max-error" : "max-time", "", "has no effect without `advise`", "`advise`"});
   }
   if (s.advise && !limited)
     throw BadOption({"advise", "", "a limit is missing", "`max-error` or `max-time`"});

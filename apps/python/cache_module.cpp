@@ -14,7 +14,7 @@ namespace py = pybind11;
 scene::Scene triangles_of(py::handle given) {
   if (py::isinstance<SceneData>(given)) return given.cast<ScenePointer>()->source;
   if (!py::isinstance<MeshPart>(given))
-    throw BadOption({"scene", "", "it is no scene", "a gatelight.Scene or a gatelight.Mesh"});
+    throw BadOption({"scene", "", "is not a scene", "a gatelight.Scene or a gatelight.Mesh"});
   const auto part = given.cast<MeshPart>();
   scene::Scene scene;
   scene.meshes.push_back(part.scene->source.meshes[part.index]);

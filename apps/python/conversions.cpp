@@ -24,7 +24,7 @@ Vec3 direction(const char* name, py::handle value) {
   Vec3 v = vector(name, value);
   v.stableNormalize();
   if (!v.allFinite() || v.squaredNorm() < 0.5f)
-    throw BadOption({name, text_of(name, value), "is no direction", "a vector that is not zero"});
+    throw BadOption({name, text_of(name, value), "is not a direction", "a vector that is not zero"});
   return v;
 }
 

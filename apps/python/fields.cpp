@@ -54,7 +54,7 @@ void set_value(scene::TextureSlot& member, const NewValue& given) {
     return;
   }
   if (!py::isinstance<TexturePart>(given.value) || given.value.cast<TexturePart>().scene != given.scene)
-    throw BadOption({given.name, "", "it is no texture of this scene", "one of scene.add_texture or None"});
+    throw BadOption({given.name, "", "is not a texture of this scene", "one of scene.add_texture or None"});
   member = {.texture = static_cast<int>(given.value.cast<TexturePart>().index)};
 }
 

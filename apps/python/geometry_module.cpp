@@ -81,7 +81,7 @@ void read_colors(py::handle values, std::size_t count, std::vector<Vec4>& colors
 int material_index(const ScenePointer& scene, py::handle material) {
   if (material.is_none()) return -1;
   if (!py::isinstance<MaterialPart>(material) || material.cast<MaterialPart>().scene != scene)
-    fail("material", "it is no material of this scene", "one of scene.materials or None");
+    fail("material", "is not a material of this scene", "one of scene.materials or None");
   return static_cast<int>(material.cast<MaterialPart>().index);
 }
 
@@ -204,7 +204,7 @@ MeshPart make_mesh(const ScenePointer& scene, py::handle positions, py::handle t
   fill("positions", positions, mesh.positions);
   expect_finite(mesh);
   const Array<std::uint32_t> indices = rows<std::uint32_t>("triangles", triangles, 3);
-  if (indices.shape(0) == 0) fail("triangles", "it is empty", "a triangle");
+  if (indices.shape(0) == 0) fail("triangles", "is empty", "a triangle");
   mesh.triangles.resize(static_cast<std::size_t>(indices.shape(0)));
   std::memcpy(mesh.triangles.data(), indices.data(), mesh.triangles.size() * sizeof(mesh.triangles[0]));
   const ErrorParts wrong = scene::wrong_index(mesh.triangles, vertices);
@@ -223,7 +223,7 @@ MeshPart make_mesh(const ScenePointer& scene, py::handle positions, py::handle t
 InstancePart make_instance(const ScenePointer& scene, py::handle mesh, py::handle matrix,
                            const std::string& name) {
   if (!py::isinstance<MeshPart>(mesh) || mesh.cast<MeshPart>().scene != scene)
-    fail("mesh", "it is no mesh of this scene", "one of scene.meshes");
+    fail("mesh", "is not a mesh of this scene", "one of scene.meshes");
   scene::Instance instance;
   const std::size_t number = scene->source.instances.size();
   instance.mesh = static_cast<int>(mesh.cast<MeshPart>().index);
@@ -246,7 +246,7 @@ TexturePart make_texture(const ScenePointer& scene, py::handle image, const std:
     if (given.ndim() != 2 && (given.ndim() != 3 || given.shape(2) < 1 || given.shape(2) > 4)) return false;
     return given.size() > 0 && given.shape(0) <= kLargestTexture && given.shape(1) <= kLargestTexture;
   };
-  if (!fits()) fail("image", "it is no image", "an array of uint8 of shape (h, w) or (h, w, 1 to 4)");
+  if (!fits()) fail("image", "is not an image", "an array of uint8 of shape (h, w) or (h, w, 1 to 4)");
   const Array<std::uint8_t> bytes(given);
   scene::Image picture;
   picture.name = name;

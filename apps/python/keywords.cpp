@@ -95,7 +95,7 @@ std::vector<std::pair<const Option*, py::handle>> match(const std::vector<Option
       std::vector<std::string> names;
       for (const Option& option : table) names.push_back(keyword_of(option.name));
       const std::string other = keyword_of_other_tools(name);
-      throw BadOption({name, "", "there is no such option", "one of gatelight.options()",
+      throw BadOption({name, "", "is not an option", "one of gatelight.options()",
                        other.empty() ? did_you_mean(name, names) : fmt::format("; here it is '{}'", other)});
     }
     if (!value.is_none()) matched.emplace_back(&*found, value);

@@ -102,7 +102,7 @@ PicturePointer denoise(const py::object& color, const py::object& albedo, const 
   const apps::RenderSettings settings = read_keywords(keywords);
   require_given(
       settings, [](const apps::Option& option) { return option.marks.of_denoise; },
-      "it is no option of a denoiser");
+      "is not an option of a denoiser");
   const PicturePointer data = noisy(color, albedo, normal);
   const renderer::RenderOptions& options = settings.render;
   Waiting waiting;

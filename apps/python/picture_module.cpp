@@ -55,7 +55,7 @@ const renderer::Layer& find(const PictureData& data, const std::string& name) {
   }
   std::string text;
   for (const std::string& known : names) text += (text.empty() ? "" : ", ") + known;
-  throw py::key_error(fmt::format("'{}' is no layer of the picture, expected one of: {}{}", name, text,
+  throw py::key_error(fmt::format("'{}' is not a layer of the picture, expected one of: {}{}", name, text,
                                   did_you_mean(name, names)));
 }
 
@@ -67,7 +67,7 @@ renderer::ImageWriteOptions image_options(const PictureData& data, const py::kwa
   apps::RenderSettings settings = read_keywords(keywords, std::move(shown));
   require_given(
       settings, [](const apps::Option& option) { return option.marks.stage == apps::OptionStage::output; },
-      "it is no option of a file");
+      "is not an option of a file");
   settings.image.display.exposure =
       settings.exposure ? *settings.exposure : renderer::auto_exposure(data.picture);
   return settings.image;
@@ -108,7 +108,7 @@ renderer::Layer layer_of(const char* name, py::handle values, const char* layer,
   const bool fits =
       given && (given.ndim() == 2 || (given.ndim() == 3 && given.shape(2) == 3)) && given.size() > 0;
   if (!given) PyErr_Clear();
-  if (!fits) throw BadOption({name, "", "it is no picture", "one, or an array of shape (h, w, 3) or (h, w)"});
+  if (!fits) throw BadOption({name, "", "is not a picture", "one, or an array of shape (h, w, 3) or (h, w)"});
   if (height == 0) {
     height = static_cast<int>(given.shape(0));
     width = static_cast<int>(given.shape(1));

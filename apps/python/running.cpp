@@ -137,7 +137,7 @@ void Running::set_camera(const py::dict& keywords) {
   require_given(
       read_keywords(keywords),
       [](const Option& option) { return option.marks.of_view || option.name == "view-file"; },
-      "it is no option of the view");
+      "is not an option of the view");
   py::dict merged = keywords_.attr("copy")();
   replace_keywords(merged, keywords);
   const apps::RenderSettings settings = settings_for(*scene_, merged);

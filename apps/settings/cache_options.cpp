@@ -101,7 +101,7 @@ void read_resolution(const std::string& text, neural::GateOptions& gate) {
   } else if (text == "uniform" || text == "paper") {
     gate.rule = parse_choice(option, text, kEnumNames<neural::ResolutionRule>);
   } else if (!text.empty() && text.find_first_not_of("0123456789x") == std::string::npos) {
-    throw BadOption({option, text, "is no resolution of a cache",
+    throw BadOption({option, text, "is not a resolution of a cache",
                      "uniform, paper or fixed:R; the size of the picture is `size` WxH"});
   } else {
     refuse_choice(option, text, "uniform|paper|fixed:R");

@@ -79,7 +79,7 @@ void read_aperture(LensOptions& lens, const std::string& text) {
   const RealRange range{.min = 0.0, .max = 1e6};
   const bool stops = text.starts_with("f/");
   const auto value = static_cast<float>(parse_real("aperture", stops ? text.substr(2) : text, range));
-  if (stops && !(value > 0.0f)) throw BadOption({"aperture", text, "is no f-stop", "more than 0"});
+  if (stops && !(value > 0.0f)) throw BadOption({"aperture", text, "is not an f-stop", "more than 0"});
   lens.f_stop = stops ? value : 0.0f;
   lens.aperture = stops ? 0.0f : value;
 }

@@ -94,7 +94,7 @@ NamedRun parse_run(const std::string& text) {
     const std::size_t equals = flag.find('=');
     std::string value = equals == std::string::npos ? "" : flag.substr(equals + 1);
     if (flag.rfind("--", 0) != 0 || (equals == std::string::npos && !(words >> value)))
-      throw BadOption({"run", flag, fmt::format("in '{}' is no flag with a value", text)});
+      throw BadOption({"run", flag, fmt::format("in '{}' is not a flag with a value", text)});
     set_flag(run.flags, flag.substr(0, equals), value);
   }
   return run;

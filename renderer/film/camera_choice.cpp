@@ -74,8 +74,8 @@ const scene::Camera& find_named(const scene::Scene& scene, const std::vector<sce
   }
   const std::size_t index = to_number<std::size_t>(name).value_or(cameras.size());
   if (index >= cameras.size())
-    throw BadOption(
-        {"camera", name, fmt::format("is no camera of {}", scene.path), names_of(scene), meant(scene, name)});
+    throw BadOption({"camera", name, fmt::format("is not a camera of {}", scene.path), names_of(scene),
+                     meant(scene, name)});
   return cameras[index];
 }
 
@@ -156,7 +156,7 @@ float focus_distance(const scene::Scene& scene, const std::string& focus, const 
       if (scene.instances[i].name == focus) box.extend(bounds_of(scene, scene.instances[i]));
     }
     if (box.isEmpty())
-      throw BadOption({"focus", focus, fmt::format("is no object of {}", scene.path), "one, or metres"});
+      throw BadOption({"focus", focus, fmt::format("is not an object of {}", scene.path), "one, or metres"});
     distance = (box.center() - view.transform.translation()).dot(-view.transform.linear().col(2));
     if (!(*distance > 0.0f))
       throw BadOption({"focus", focus, fmt::format("is behind the camera '{}'", view.name)});

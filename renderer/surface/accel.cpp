@@ -287,7 +287,7 @@ Accel::Accel(const scene::Scene& scene, const Coverage& coverage, const AccelOpt
     const RTCError error = rtcGetDeviceError(nullptr);
     const std::string text = fmt::format("Embree refuses the device \"{}\"", config);
     if (error == RTC_ERROR_UNSUPPORTED_CPU || error == RTC_ERROR_INVALID_ARGUMENT) throw Unavailable(text);
-    throw OutOfMemory(text + ": there is no memory for it, or no thread");
+    throw OutOfMemory(text + ": memory or threads are not available");
   }
   state.limit = options.memory_limit_bytes;
   rtcSetDeviceErrorFunction(state.device, State::error, &state);

@@ -34,7 +34,7 @@ std::vector<std::uint8_t> find_catchers(const scene::Scene& scene, const Backgro
   std::vector<std::uint8_t> catchers;
   for (const scene::Instance& instance : scene.instances) catchers.push_back(instance.name == node ? 1 : 0);
   if (std::find(catchers.begin(), catchers.end(), 1) == catchers.end()) {
-    throw BadOption({"shadow-catcher", node, fmt::format("is no object of {}", scene.path),
+    throw BadOption({"shadow-catcher", node, fmt::format("is not an object of {}", scene.path),
                      fmt::format("one of '{}'", fmt::join(names_of(scene), "', '"))});
   }
   return catchers;
