@@ -74,7 +74,8 @@ TEST(SoftSkyChoice, AGlowingBadgeDoesNotLeaveItsCubeBlack) {
   RenderOptions options = from(kBeforeTheBadge);
   options.aovs = {Aov::depth};
   Renderer lit(cube, options);
-  expect_messages(lit.statistics().warnings, {{"built.glb", "no light that illuminates", "soft sky", "none"}});
+  expect_messages(lit.statistics().warnings,
+                  {{"built.glb", "no light that illuminates", "soft sky", "none"}});
   EXPECT_LT(black_share(lit.render()), 0.01);
   options.environment.automatic = false;
   Renderer dark(cube, options);
