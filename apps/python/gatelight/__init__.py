@@ -36,7 +36,7 @@ _LOADING = [name for name, option in _gatelight.options().items() if option["loa
 
 
 def _use_installed_denoiser():
-    """Names Open Image Denoise of the package pyoidn, where the user names none."""
+    """Uses Open Image Denoise of the package pyoidn, unless the user names another."""
     if os.environ.get("GATELIGHT_OIDN"):
         return
     found = importlib.util.find_spec("pyoidn")
@@ -60,7 +60,7 @@ def load(path, **options):
 
 
 def _split(scene, options):
-    """The scene, loaded where it is a path, and the options of rendering."""
+    """The scene, loaded if it is a path, and the options of rendering."""
     if isinstance(scene, Scene):
         return scene, options
     loading = {name: options.pop(name) for name in _LOADING if options.get(name) is not None}
