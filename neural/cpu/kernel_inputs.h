@@ -1,5 +1,5 @@
 #pragma once
-// The inputs besides the features: one-blob, frequency and identity encodings of positions, directions,
+// The inputs besides the features: one-blob and identity encodings of positions, directions,
 // normals, albedos and roughness. Part of kernel_table.cpp.
 
 #include "base/simd/fused.h"
@@ -37,21 +37,6 @@ GATELIGHT_INLINE Float arctangent(Float y, Float x) {
   angle = select(ax < ay, 1.57079632679f - angle, angle);
   angle = select(x < 0.0f, 3.14159265359f - angle, angle);
   return select(y < 0.0f, 0.0f - angle, angle);
-}
-
-// sin(pi x): an exact reduction of the argument, then a polynomial on [-1/2, 1/2]; the error is 2e-7.
-GATELIGHT_INLINE Float sine_pi(Float x) {
-  const float coefficients[5] = {3.14159264f, -5.16771008f, 2.55007752f, -0.598291286f, 0.0776576603f};
-  const Float turns = round(x * 0.5f);
-  Float r = fma(turns, -2.0f, x);  // in [-1, 1]
-  const Float magnitude = absolute(r);
-  const Float folded = min(magnitude, 1.0f - magnitude);  // sin(pi r) = sin(pi (1 - r))
-  r = select(r < 0.0f, 0.0f - folded, folded);
-  r = clamp(r, -0.5f, 0.5f);
-  const Float z = r * r;
-  Float p = coefficients[4];
-  for (int i = 3; i >= 0; --i) p = fma(p, z, coefficients[i]);
-  return p * r;
 }
 
 // Replaces directions by theta / pi, measured from the z axis, and phi / 2 pi in [0, 1).
@@ -116,28 +101,6 @@ GATELIGHT_NOINLINE void encode_one_blob(const KernelAuxiliary& a, const TileCoor
   }
 }
 
-GATELIGHT_NOINLINE void encode_frequency(const KernelAuxiliary& a, const TileCoordinates& tile, float* inputs,
-                                         uint32_t stride) {
-  alignas(64) float sines[kLanes], cosines[kLanes];
-  for (uint32_t c = 0; c < a.coordinates; ++c) {
-    float scale = 1.0f;
-    for (uint32_t i = 0; i < a.size; ++i, scale *= 2.0f) {
-      for (uint32_t s = 0; s < kTile; s += kLanes) {
-        const Float x = load(tile.lanes[c] + s) * scale;
-        store(sines, sine_pi(x));
-        // The quarter turn is added after the reduction to [-1, 1], where the sum is accurate enough.
-        const Float reduced = fma(round(x * 0.5f), -2.0f, x);
-        store(cosines, sine_pi(reduced + 0.5f));
-        float* column = inputs + s * stride + a.first_input + 2 * (c * a.size + i);
-        for (uint32_t l = 0; l < kLanes; ++l) {
-          column[l * stride] = sines[l];
-          column[l * stride + 1] = cosines[l];
-        }
-      }
-    }
-  }
-}
-
 // Fills the auxiliary columns of all kTile rows of inputs. Invalid and missing points count as zeros. `last`
 // means that memory behind these points must not be read.
 GATELIGHT_NOINLINE void encode_auxiliary(const KernelEncoder& e, const KernelPoints& points, uint64_t begin,
@@ -168,10 +131,6 @@ GATELIGHT_NOINLINE void encode_auxiliary(const KernelEncoder& e, const KernelPoi
       }
     }
     if (a.transform == KernelTransform::spherical_one_blob) spherical(tile);
-    if (a.transform == KernelTransform::frequency) {
-      encode_frequency(a, tile, inputs, stride);
-      continue;
-    }
     for (uint32_t s = 0; s < kTile; ++s)
       for (uint32_t c = 0; c < a.coordinates; ++c) tile.rows[s][c] = tile.lanes[c][s];
     if (a.transform == KernelTransform::identity) {

@@ -19,14 +19,7 @@ KernelHashLevel kernel_level(const HashGridLevel& level) {
 
 KernelTransform transform_of(const AuxiliaryInput& input) {
   const bool spherical = input.source == InputSource::direction || input.source == InputSource::normal;
-  switch (input.encoding) {
-    case InputEncoding::identity:
-      return KernelTransform::identity;
-    case InputEncoding::frequency:
-      return KernelTransform::frequency;
-    case InputEncoding::one_blob:
-      break;
-  }
+  if (input.encoding == InputEncoding::identity) return KernelTransform::identity;
   return spherical ? KernelTransform::spherical_one_blob : KernelTransform::one_blob;
 }
 

@@ -38,7 +38,7 @@ struct KernelHashLevel {
 
 enum class KernelEncoding : uint32_t { none, gate, hash_grid };
 enum class KernelSource : uint32_t { position, direction, normal, albedo, roughness };
-enum class KernelTransform : uint32_t { identity, one_blob, spherical_one_blob, frequency };
+enum class KernelTransform : uint32_t { identity, one_blob, spherical_one_blob };
 
 // Compute shaders read these words, too.
 struct KernelAuxiliary {

@@ -25,8 +25,6 @@ void check_auxiliary(const AuxiliaryInput& input) {
   if (input.encoding == InputEncoding::one_blob)
     require(std::has_single_bit(input.size) && input.size >= 2 && input.size <= 64, "one-blob-bins",
             input.size, "a power of two from 2 to 64");
-  if (input.encoding == InputEncoding::frequency)
-    require(input.size >= 1 && input.size <= 16, "frequencies", input.size, "1 to 16");
 }
 
 }  // namespace
@@ -38,15 +36,7 @@ std::uint32_t coordinate_count(const AuxiliaryInput& input) {
 }
 
 std::uint32_t input_count(const AuxiliaryInput& input) {
-  switch (input.encoding) {
-    case InputEncoding::identity:
-      return coordinate_count(input);
-    case InputEncoding::one_blob:
-      return coordinate_count(input) * input.size;
-    case InputEncoding::frequency:
-      return coordinate_count(input) * 2 * input.size;
-  }
-  return 0;
+  return coordinate_count(input) * (input.encoding == InputEncoding::one_blob ? input.size : 1);
 }
 
 std::vector<AuxiliaryInput> composite_inputs(const RequiredInputs& required, std::uint32_t bins) {

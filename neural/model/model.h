@@ -14,20 +14,18 @@ enum class FeatureEncoding : std::uint8_t { none, gate, hash_grid };
 
 enum class InputSource : std::uint8_t { position, direction, normal, albedo, roughness };
 
-/// The encoding of a source as network inputs. `size` is the number of bins or of frequencies for each
-/// coordinate.
+/// The encoding of a source as network inputs.
 /// - identity: the coordinates themselves. A position has 3 in [0,1], direction, normal and albedo have 3,
 ///   roughness has 1.
 /// - one_blob: `size` bins per coordinate, with a quartic kernel. Directions and normals use the spherical
 ///   coordinates theta/pi and phi/2pi; only the second wraps. Positions and albedo have 3 coordinates in
 ///   [0,1], roughness has 1.
-/// - frequency: sin and cos of 2^i pi x for i = 0 .. size-1, alternating, for each coordinate.
-enum class InputEncoding : std::uint8_t { identity, one_blob, frequency };
+enum class InputEncoding : std::uint8_t { identity, one_blob };
 
 struct AuxiliaryInput {
   InputSource source = InputSource::direction;
   InputEncoding encoding = InputEncoding::one_blob;
-  std::uint32_t size = 4;  ///< one_blob: 2 to 64 bins, a power of two; frequency: 1 to 16; identity: unused
+  std::uint32_t size = 4;  ///< one_blob: 2 to 64 bins, a power of two; identity: unused
 };
 
 /// Number of coordinates of the source with this encoding, and number of network inputs that they become.

@@ -44,7 +44,7 @@ const char* name(InputSource source) {
 }
 
 const char* name(InputEncoding encoding) {
-  return word(encoding, {"identity", "one_blob", "frequency"});
+  return word(encoding, {"identity", "one_blob"});
 }
 
 const char* name(ResolutionRule rule) {

@@ -40,21 +40,11 @@ void append_auxiliary(const AuxiliaryInput& input, const Point& point, std::vect
   const std::vector<double> x = coordinates(input, point);
   const bool is_direction = input.source == InputSource::direction || input.source == InputSource::normal;
   for (std::size_t c = 0; c < x.size(); ++c) {
-    switch (input.encoding) {
-      case InputEncoding::identity:
-        inputs.push_back(x[c]);
-        break;
-      case InputEncoding::one_blob:
-        inputs.resize(inputs.size() + input.size);
-        one_blob(x[c], is_direction && c == 1, std::span(inputs).last(input.size));
-        break;
-      case InputEncoding::frequency:
-        for (std::uint32_t i = 0; i < input.size; ++i) {
-          const double turns = std::ldexp(x[c], static_cast<int>(i));
-          inputs.push_back(std::sin(std::numbers::pi * turns));
-          inputs.push_back(std::cos(std::numbers::pi * turns));
-        }
-        break;
+    if (input.encoding == InputEncoding::identity) {
+      inputs.push_back(x[c]);
+    } else {
+      inputs.resize(inputs.size() + input.size);
+      one_blob(x[c], is_direction && c == 1, std::span(inputs).last(input.size));
     }
   }
 }

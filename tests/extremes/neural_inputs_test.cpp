@@ -122,24 +122,5 @@ TEST(ExtremeInputs, GridsOfAnySizeAgreeWithTheReferenceAndInvalidBoundsAreRefuse
   }
 }
 
-// Finite numbers whose products overflow; the renderer never gives them.
-TEST(ExtremeInputs, FrequenciesOfHugeNumbersLoseNoGradient) {
-  for (const InputSource source : {InputSource::albedo, InputSource::roughness, InputSource::direction}) {
-    const ModelCase c = plain(source, InputEncoding::frequency, 16);
-    OwnedBatch batch = make_batch(*c.model, 97, 7);
-    for (std::size_t r = 0; r < 97; r += 10) {
-      if (source == InputSource::roughness) batch.roughnesses[r] = kGreatest;
-      if (source == InputSource::albedo) batch.albedos[r] = {kGreatest, -kGreatest, 1e35f};
-      if (source == InputSource::direction) batch.directions[r] = {kGreatest, 0, -1e35f};
-    }
-    for (const auto& fast : fast_backends(c.model, {})) {
-      const StepStatistics s = fast->train(batch.training());
-      EXPECT_EQ(s.skipped_updates, 0u) << fast->name();
-      EXPECT_TRUE(all_finite(raw_answers(*fast, *c.model, batch))) << fast->name();
-      expect_sound(*fast, *c.model, batch);
-    }
-  }
-}
-
 }  // namespace
 }  // namespace gatelight::neural

@@ -156,9 +156,6 @@ inline void add_inputs(NamedConfigs& configs) {
     for (const std::uint32_t bins : {2u, 8u, 64u})
       add_with(fmt::format("plain_{}_one_blob_{}", word, bins), plain,
                {{source, InputEncoding::one_blob, bins}});
-    for (const std::uint32_t frequencies : {1u, 5u, 16u})
-      add_with(fmt::format("plain_{}_frequency_{}", word, frequencies), plain,
-               {{source, InputEncoding::frequency, frequencies}});
     for (const auto& [name, config] : {encodings[0], encodings[1]})
       add_with(fmt::format("{}_with_{}", name, word), config, {{source, InputEncoding::one_blob, 4}});
   }
@@ -166,7 +163,7 @@ inline void add_inputs(NamedConfigs& configs) {
     add_with(fmt::format("{}_with_everything", name), config,
              {{InputSource::roughness, InputEncoding::one_blob, 4},
               {InputSource::normal, InputEncoding::identity, 0},
-              {InputSource::position, InputEncoding::frequency, 6},
+              {InputSource::position, InputEncoding::one_blob, 8},
               {InputSource::direction, InputEncoding::one_blob, 16},
               {InputSource::albedo, InputEncoding::identity, 0},
               {InputSource::direction, InputEncoding::identity, 0}});

@@ -128,25 +128,10 @@ void encode_hash_grid() {
   }
 }
 
-void encode_frequency(Auxiliary a, vec3 x) {
-  for (uint c = 0u; c < a.coordinates; ++c)
-    for (uint i = 0u; i < a.size; ++i) {
-      const float turns = x[c] * float(1u << i);
-      const uint at = a.first_input + 2u * (c * a.size + i);
-      put(at, sine_pi(turns));
-      // The quarter turn is added after the reduction to [-1, 1], where the sum is accurate enough.
-      put(at + 1u, sine_pi(fma(roundEven(turns * 0.5), -2.0, turns) + 0.5));
-    }
-}
-
 void encode_auxiliary(Auxiliary a) {
   vec3 x = source_values(a.source);
   if (a.source == kPosition) x = unit_position(x);
   if (a.transform == kSphericalOneBlob) x = vec3(spherical(x), 0.0);
-  if (a.transform == kFrequency) {
-    encode_frequency(a, x);
-    return;
-  }
   for (uint c = 0u; c < a.coordinates; ++c) {
     if (a.transform == kIdentity) {
       put(a.first_input + c, x[c]);

@@ -1,10 +1,9 @@
-// Inputs besides the features. Sines and arctangents are the CPU's polynomials, because Vulkan guarantees the
-// built-in ones only to 2^-11.
+// Inputs besides the features. Arctangents are the CPU's polynomial, because Vulkan guarantees the built-in
+// one only to 2^-11.
 
 const uint kIdentity = 0;
 const uint kOneBlob = 1;
 const uint kSphericalOneBlob = 2;
-const uint kFrequency = 3;
 
 // atan(a) for a in [0,1]; the error is 1.1e-7.
 float arctangent_unit(float a) {
@@ -28,21 +27,6 @@ float arctangent(float y, float x) {
   if (ax < ay) angle = 1.57079632679 - angle;
   if (x < 0.0) angle = 3.14159265359 - angle;
   return y < 0.0 ? -angle : angle;
-}
-
-// sin(pi x): an exact reduction, then a polynomial on [-1/2, 1/2]; the error is 2e-7.
-float sine_pi(float x) {
-  float r = fma(roundEven(x * 0.5), -2.0, x);
-  const float magnitude = abs(r);
-  const float folded = min(magnitude, 1.0 - magnitude);
-  r = clamp(r < 0.0 ? -folded : folded, -0.5, 0.5);
-  const float z = r * r;
-  float p = 0.0776576603;
-  p = fma(p, z, -0.598291286);
-  p = fma(p, z, 2.55007752);
-  p = fma(p, z, -5.16771008);
-  p = fma(p, z, 3.14159264);
-  return p * r;
 }
 
 // (theta / pi, phi / 2 pi), the second in [0, 1).

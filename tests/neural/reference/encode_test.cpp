@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "neural/reference/auxiliary.h"
 #include "neural/reference/hash_grid_encoding.h"
@@ -64,18 +63,6 @@ TEST(Encode, OnlyDirectionsWrap) {
     EXPECT_NEAR(inputs[4], 0.5, 1e-15);
     EXPECT_EQ(inputs[7], 0.0);
   }
-}
-
-TEST(Encode, FrequenciesAreSineAndCosineInTurnForEachCoordinate) {
-  Point point;
-  point.albedo = {0.1, 0.7, 0.25};
-  const std::vector<double> inputs = auxiliary({InputSource::albedo, InputEncoding::frequency, 3}, point);
-  for (std::size_t c = 0; c < 3; ++c)
-    for (std::size_t i = 0; i < 3; ++i) {
-      const double angle = std::pow(2.0, static_cast<double>(i)) * std::numbers::pi * point.albedo[c];
-      EXPECT_NEAR(inputs[(c * 3 + i) * 2], std::sin(angle), 1e-14);
-      EXPECT_NEAR(inputs[(c * 3 + i) * 2 + 1], std::cos(angle), 1e-14);
-    }
 }
 
 TEST(Encode, FeatureLevelsComeFirstThenAuxiliaryInputsInTheirOrder) {

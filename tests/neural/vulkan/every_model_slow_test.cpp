@@ -50,7 +50,7 @@ ModelCase combined_model(std::size_t i) {
   constexpr InputSource kSources[] = {InputSource::position, InputSource::direction, InputSource::normal,
                                       InputSource::albedo, InputSource::roughness};
   constexpr InputEncoding kEncodings[] = {InputEncoding::identity, InputEncoding::one_blob,
-                                          InputEncoding::frequency};
+                                          InputEncoding::one_blob};
   constexpr float kSlopes[] = {0.0f, 0.2f, 1.0f};
   const auto n = static_cast<std::uint32_t>(i);
   const bool is_gate = i < 16;
@@ -58,7 +58,7 @@ ModelCase combined_model(std::size_t i) {
   config.gate.features = config.hash_grid.features = n % 16 + 1;
   if (is_gate) set_gate(config.gate, i);
   if (!is_gate) set_hash_grid(config.hash_grid, i);
-  const std::uint32_t sizes[] = {0, 2u << n % 4, 2 + n / 3};
+  const std::uint32_t sizes[] = {0, 2u << n % 4, 2u << n / 3 % 5};
   config.auxiliary = {{kSources[i % 5], kEncodings[i % 3], sizes[i % 3]}};
   config.mlp.width = 16u << n % 4;
   config.mlp.hidden_layers = 1 + n % 5;
