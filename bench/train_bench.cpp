@@ -5,7 +5,6 @@
 
 #include "base/parallel/team.h"
 #include "bench/neural_rows.h"
-#include "bench/schedule_file.h"
 
 namespace gatelight::bench {
 namespace {
@@ -74,8 +73,7 @@ void train_step(benchmark::State& state, const TrainCase& which) {
 
 void small_steps(benchmark::State& state, Order order) {
   constexpr std::size_t kRecords = 2048, kSteps = kBatchRecords / kRecords;
-  const int threads = static_cast<int>(state.range(0));
-  tbb::task_arena(threads).execute([&] {
+  tbb::task_arena(static_cast<int>(state.range(0))).execute([&] {
     const TrainCase which{{Cache::nrc, Encoding::gate}, order};
     Learner learner(which);
     const auto some = [](const auto& span, std::size_t first) {
@@ -95,14 +93,7 @@ void small_steps(benchmark::State& state, Order order) {
         for (std::size_t i = 0; i < kSteps; ++i) learner.backend->train(part(batch, i * kRecords), team);
       });
     };
-    std::string record;
-    const double seconds = timed_seconds(state, [&] {
-      if (schedule_file().empty()) return all_steps();
-      const schedule::Recording recording;
-      all_steps();
-      record = recording.json(threads);
-    });
-    if (!record.empty()) write_schedule(record);
+    const double seconds = timed_seconds(state, all_steps);
     state.counters["step_ms"] = 1e3 * seconds / static_cast<double>(state.iterations() * kSteps);
   });
 }
