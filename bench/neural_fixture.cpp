@@ -240,17 +240,4 @@ const NeuralPoints& query_points(Order order) {
   return found != all.end() ? found->second : all[order] = make_points(order, 1920, 1080, 0);
 }
 
-double forward_operations(const neural::ParameterLayout& layout) {
-  double weights = 0.0;
-  for (const neural::LayerLayout& layer : layout.layers)
-    weights += static_cast<double>(layer.inputs) * layer.outputs;
-  return 2 * weights;
-}
-
-double training_operations(const neural::ParameterLayout& layout) {
-  const double forward = forward_operations(layout);
-  const double no_features = layout.inputs - layout.feature_inputs;
-  return 3 * forward - 2 * no_features * layout.layers.front().outputs;
-}
-
 }  // namespace gatelight::bench

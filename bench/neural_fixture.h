@@ -1,6 +1,6 @@
 #pragma once
-// A surface of one million triangles, models on it, and points for training and queries. train_step, query
-// and mlp measure on it, without a scene and without rays.
+// A surface of one million triangles, models on it, and points for training and queries. train_step and
+// query measure on it, without a scene and without rays.
 
 #include <array>
 #include <cstdint>
@@ -82,11 +82,5 @@ const std::vector<NeuralPoints>& training_points(Order order);
 std::vector<float> training_targets(const NeuralPoints& points, std::uint32_t outputs);
 /// 1920x1080 points.
 const NeuralPoints& query_points(Order order);
-
-/// The floating-point operations of the network for a record, without encoding, biases, activations and loss.
-/// Each weight counts two in the forward pass and two for its gradient. It also counts two for the gradient
-/// of its input, if that is a feature or a neuron.
-double forward_operations(const neural::ParameterLayout& layout);
-double training_operations(const neural::ParameterLayout& layout);
 
 }  // namespace gatelight::bench

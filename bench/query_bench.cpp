@@ -22,17 +22,13 @@ void query(benchmark::State& state, const NeuralCase& which, Order order, neural
       answerer.backend = neural::cpu::make_cpu_backend(answerer.model, {});
     }
     const NeuralPoints& points = query_points(order);
-    const neural::Model& model = *answerer.model;
-    std::vector<float> out(points.size() * model.config.mlp.outputs);
+    std::vector<float> out(points.size() * answerer.model->config.mlp.outputs);
     neural::QueryOptions options;
     options.precision = precision;
     answerer.backend->query(points.query_batch(), options, out);  // warm up
     const double seconds =
         timed_seconds(state, [&] { answerer.backend->query(points.query_batch(), options, out); });
     const double answers = static_cast<double>(state.iterations()) * static_cast<double>(points.size());
-    set_fractions(state, answers * forward_operations(model.parameters), seconds,
-                  arithmetic_in_use(precision == neural::QueryPrecision::bf16),
-                  order == Order::random ? answers * model.nodes_per_point() : 0.0);
     state.counters["ns/point"] = 1e9 * seconds / answers;
   });
 }

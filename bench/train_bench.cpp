@@ -59,13 +59,8 @@ void train_step(benchmark::State& state, const TrainCase& which) {
       learner = std::make_unique<Learner>(which);
     }
     StepSums sums;
-    const double seconds = timed_seconds(state, [&] { sums.add(learner->step()); });
+    for (auto _ : state) sums.add(learner->step());
     sums.report(state);
-    const neural::Model& model = *learner->model;
-    // A node is read for each of its records. The update reads two moments and the average.
-    const double reads = records(state) * model.nodes_per_point() + 3 * sums.touched;
-    set_fractions(state, records(state) * training_operations(model.parameters), seconds, arithmetic_in_use(),
-                  which.order != Order::coherent ? reads : 0.0);
     state.counters["touched"] = {sums.touched, benchmark::Counter::kAvgIterations};
     state.counters["feature_MB"] = static_cast<double>(learner->backend->parameter_bytes()) / 1e6;
   });

@@ -66,16 +66,12 @@ class CpuBackend final : public Backend {
            triangle_steps_.size() * sizeof(std::uint32_t);
   }
 
-  NetworkPass network_pass(std::span<const float> inputs, std::span<const float> targets);
-
  private:
   void start_output_at_mean(const TrainingBatch& batch);
-  StepStatistics run_network(const KernelPoints& points, const float* targets, const float* inputs,
-                             std::uint32_t records, bool references, Team& team);
+  StepStatistics run_network(const TrainingBatch& batch, Team& team);
   KernelFeatureUpdate feature_update(float scale, const std::uint32_t* record_steps) const;
   void update_buckets(std::uint32_t begin, std::uint32_t end, KernelFeatureUpdate u);
-  void update(float scale, std::uint32_t chunks, const TrainingBatch& batch, Team& team,
-              StepStatistics& statistics);
+  void update(float scale, const TrainingBatch& batch, Team& team, StepStatistics& statistics);
   std::vector<std::uint32_t> count_triangles(const TrainingBatch& batch);
   float* scratch(std::uint64_t floats) const;
 
@@ -115,18 +111,13 @@ void CpuBackend::start_output_at_mean(const TrainingBatch& batch) {
   if (!means.empty()) network_.set_output_biases(means);
 }
 
-// Encode, forward, loss and backward of all chunks. `references`: the encoding takes part, and its references
-// are sorted.
-StepStatistics CpuBackend::run_network(const KernelPoints& points, const float* targets, const float* inputs,
-                                       std::uint32_t records, bool references, Team& team) {
+// Encode, forward, loss and backward of all chunks, whose references are sorted.
+StepStatistics CpuBackend::run_network(const TrainingBatch& batch, Team& team) {
+  const auto records = static_cast<std::uint32_t>(batch.points.size);
+  const KernelPoints points = kernel_points(*model_, batch.points);
   const Chunks chunks(records);
   KernelEncoder encoder = encoder_;
   features_.set_training_view(encoder);
-  if (!references) {
-    encoder.encoding = KernelEncoding::none;
-    encoder.levels = 0;
-    encoder.auxiliary_count = 0;
-  }
   const std::uint32_t slots = encoder.levels * encoder.nodes_per_level;
   buckets_ = make_buckets(layout_.node_count, chunks.tiles_of_chunk * kTile * slots);
   references_.start(chunks, buckets_, slots);
@@ -142,14 +133,13 @@ StepStatistics CpuBackend::run_network(const KernelPoints& points, const float* 
     t.encoder = &encoder;
     t.network = &network_.kernel();
     t.points = points;
-    t.targets = targets;
+    t.targets = batch.targets.data();
     t.begin = chunks.begin(begin);
     t.end = chunks.end(end - 1);
     t.chunk_tiles = chunks.tiles_of_chunk;
     t.relative_loss = options_.loss == Loss::relative_l2 ? 1 : 0;
     t.max_target = options_.max_target;
     t.scratch = scratch(scratch_floats);
-    t.inputs = inputs;
     t.nodes = references_.nodes();
     t.weights = references_.weights();
     t.feature_gradients = feature_gradients_.data();
@@ -158,7 +148,7 @@ StepStatistics CpuBackend::run_network(const KernelPoints& points, const float* 
     t.gradient_size = network_.size();
     t.statistics = &chunk_statistics_[begin];
     table_.train(t);
-    for (std::uint32_t chunk = begin; chunk < end && references; ++chunk)
+    for (std::uint32_t chunk = begin; chunk < end; ++chunk)
       references_.sort(chunk, encoder.nodes_per_level, layout_.features, layout_.feature_inputs);
   });
 
@@ -242,8 +232,7 @@ void CpuBackend::update_buckets(std::uint32_t begin, std::uint32_t end, KernelFe
 }
 
 // Updates the network and the features, in one loop.
-void CpuBackend::update(float scale, std::uint32_t chunks, const TrainingBatch& batch, Team& team,
-                        StepStatistics& statistics) {
+void CpuBackend::update(float scale, const TrainingBatch& batch, Team& team, StepStatistics& statistics) {
   constexpr std::uint32_t kSlice = 256;  // parameters of the network
   const bool per_triangle =
       options_.feature_step == FeatureStep::per_triangle && options_.update != FeatureUpdate::dense;
@@ -259,7 +248,7 @@ void CpuBackend::update(float scale, std::uint32_t chunks, const TrainingBatch& 
       skipped_here +=
           network_.update(std::uint64_t{begin} * kSlice,
                           std::min(std::uint64_t{std::min(end, slices)} * kSlice, network_.size()),
-                          chunk_gradients_.data(), chunks, scale, of_features.dense_step);
+                          chunk_gradients_.data(), static_cast<std::uint32_t>(chunk_statistics_.size()), scale, of_features.dense_step);
     if (end > slices) {
       KernelFeatureUpdate u = of_features;
       u.touched_count = &touched_here;
@@ -292,33 +281,17 @@ StepStatistics CpuBackend::train(const TrainingBatch& batch, Team& team) {
   const Clock::time_point start = Clock::now();
   if (steps_ == 0 && layout_.biases && options_.start_at_mean) start_output_at_mean(batch);
 
-  const auto records = static_cast<std::uint32_t>(batch.points.size);
-  StepStatistics statistics =
-      run_network(kernel_points(*model_, batch.points), batch.targets.data(), nullptr, records, true, team);
+  StepStatistics statistics = run_network(batch, team);
   statistics.seconds_network = seconds_since(start);
   if (statistics.records > 0) {
     ++steps_;
     const double scale = 1.0 / (static_cast<double>(statistics.records) * model_->config.mlp.outputs);
     const Clock::time_point updating = Clock::now();
-    update(static_cast<float>(scale), Chunks(records).count, batch, team, statistics);
+    update(static_cast<float>(scale), batch, team, statistics);
     statistics.seconds_update = seconds_since(updating);
   }
   statistics.seconds = seconds_since(start);
   return statistics;
-}
-
-NetworkPass CpuBackend::network_pass(std::span<const float> inputs, std::span<const float> targets) {
-  const std::size_t records = targets.size() / model_->config.mlp.outputs;
-  if (inputs.size() != records * network_.kernel().input_stride)
-    throw BadConfiguration(fmt::format("inputs: {} floats, expected {} rows of {}", inputs.size(), records,
-                                       network_.kernel().input_stride));
-  const Clock::time_point start = Clock::now();
-  StepStatistics statistics;
-  Team::run([&](Team& team) {
-    statistics =
-        run_network({}, targets.data(), inputs.data(), static_cast<std::uint32_t>(records), false, team);
-  });
-  return {statistics.loss, seconds_since(start)};
 }
 
 void CpuBackend::query(const QueryBatch& batch, const QueryOptions& options, std::span<float> out) const {
@@ -381,12 +354,6 @@ std::unique_ptr<Backend> make_cpu_backend(std::shared_ptr<const Model> model, co
     throw BadConfiguration(fmt::format("levels of all surfaces: {}, expected less than {}",
                                        model->gate.levels.size(), kMaxLevels));
   return std::make_unique<CpuBackend>(std::move(model), options, simd::select_isa(isa));
-}
-
-NetworkPass network_pass(Backend& cpu_backend, std::span<const float> inputs,
-                         std::span<const float> targets) {
-  const FlushDenormals flush;
-  return dynamic_cast<CpuBackend&>(cpu_backend).network_pass(inputs, targets);
 }
 
 }  // namespace gatelight::neural::cpu

@@ -51,7 +51,7 @@ GATELIGHT_INLINE uint32_t forward_blocks(const KernelNetwork& n) {
 void train(const KernelTraining& t) {
   const KernelEncoder& e = *t.encoder;
   const KernelNetwork& n = *t.network;
-  TileBuffers b = tile_buffers(n, t.scratch);
+  const TileBuffers b = tile_buffers(n, t.scratch);
   float* const inputs = t.scratch;
   const uint32_t slots = e.levels * e.nodes_per_level;
   const uint64_t tiles = (uint64_t{t.end} - t.begin + kTile - 1) / kTile;
@@ -100,14 +100,8 @@ void train(const KernelTraining& t) {
     }
     const Between between{&ahead};
 
-    if (t.inputs != nullptr) {
-      const float* given = t.inputs + k % t.chunk_tiles * kTile * n.input_stride;
-      if (count < kTile) __builtin_memcpy(inputs, given, count * n.input_stride * sizeof(float));
-      b.inputs = count < kTile ? inputs : given;
-    } else {
-      if (slots > 0) interpolate(e, nodes, weights, inputs, n.input_stride);
-      encode_auxiliary(e, t.points, begin, count, k + 1 == tiles, tile.valid, inputs, n.input_stride);
-    }
+    if (slots > 0) interpolate(e, nodes, weights, inputs, n.input_stride);
+    encode_auxiliary(e, t.points, begin, count, k + 1 == tiles, tile.valid, inputs, n.input_stride);
     forward<false>(n, b, rows, between);
     statistics.loss += loss(n.outputs, t.relative_loss != 0, t.max_target, t.targets + begin * n.outputs,
                             tile.valid, count, rows, b.outputs, statistics.clipped);

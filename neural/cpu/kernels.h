@@ -120,8 +120,6 @@ struct KernelTraining {
   uint32_t relative_loss;
   float max_target;
   float* scratch;  // KernelTable::scratch_floats floats, aligned to 64 bytes
-  // For benchmarks, else null: rows of input_stride floats that replace the encoding of each chunk.
-  const float* inputs;
   uint32_t* nodes;           // [tile][node slot][kTile]; weight 0 means no reference
   float* weights;            // as `nodes`
   float* feature_gradients;  // [record][feature_inputs]; gradients of the sum of the losses

@@ -11,8 +11,6 @@ enum class Shader : std::uint8_t {
   encode,
   finish_step,
   forward,
-  limit_fma,
-  limit_read,
   mark_count,
   mark_write,
   pack_network,

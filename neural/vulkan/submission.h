@@ -8,9 +8,8 @@
 
 namespace gatelight::neural::vulkan {
 
-/// Timestamps. A step has four: start, after the network, after the sort, end. A chunk of a query has five:
-/// start, after the upload, after the encoding, after the network, after the readback.
-inline constexpr std::uint32_t kStamps = 5;
+/// The timestamps of a step: start, after the network, after the sort, end.
+inline constexpr std::uint32_t kStamps = 4;
 
 struct Submission {
   explicit Submission(const Device& device);

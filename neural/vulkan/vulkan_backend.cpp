@@ -45,7 +45,6 @@ class VulkanBackend final : public Backend {
   void start(const TrainingBatch& batch, Team*) override;
   StepStatistics finish() override;
   bool runs_alongside() const override { return true; }
-  const QuerySeconds& query_seconds() const { return query_seconds_; }
   void query(const QueryBatch& batch, const QueryOptions& options, std::span<float> out) const override;
   ModelState export_state() const override;
   void import_state(const ModelState& state) override;
@@ -90,7 +89,6 @@ class VulkanBackend final : public Backend {
   mutable std::vector<Submission> chunks_;
   mutable Buffer query_inputs_, query_status_;
   mutable std::optional<PackedFor> packed_;
-  mutable QuerySeconds query_seconds_;
 };
 
 VulkanBackend::VulkanBackend(std::shared_ptr<Machine> machine, std::shared_ptr<const Model> model,
@@ -227,7 +225,6 @@ void VulkanBackend::query(const QueryBatch& batch, const QueryOptions& options, 
   check_batch(*model_, batch, out);
   translate_errors("answering", [&] {
     abandon_chunks();
-    query_seconds_ = {};
     const std::size_t chunks = (batch.size + kChunkPoints - 1) / kChunkPoints;
     for (std::size_t k = 0; k < chunks + kChunks; ++k) {
       Submission& chunk = chunks_[k % kChunks];
@@ -280,11 +277,8 @@ void VulkanBackend::submit_query(Submission& chunk, const QueryBatch& batch, con
   write_upload(*model_, batch, {}, begin, chunk.batch.address(), block, chunk.staging.mapped());
 
   Commands commands(chunk.commands.front(), *machine_, model_block_.address(), chunk.batch.address());
-  commands.reset(chunk.stamps, kStamps);
-  commands.stamp(chunk.stamps, 0);
   commands.copy(chunk.staging, chunk.batch, bytes);
   commands.barrier();
-  commands.stamp(chunk.stamps, 1);
   std::vector<std::uint32_t> constants = network_constants(*model_);
   if (to_pack)
     commands.dispatch(
@@ -295,15 +289,12 @@ void VulkanBackend::submit_query(Submission& chunk, const QueryBatch& batch, con
                                features_.halves() ? 1u : 0u, 0u, std::max(model_->parameters.features, 1u)},
                     groups_for(size));
   commands.barrier();
-  commands.stamp(chunk.stamps, 2);
   constants.insert(constants.end(),
                    {query_tile_, std::bit_cast<std::uint32_t>(model_->config.mlp.leaky_slope),
                     options.precision == QueryPrecision::bf16 ? 1u : 0u});
   commands.dispatch(Shader::forward, constants, block.tiles, static_cast<std::uint32_t>(options.range));
   commands.barrier();
-  commands.stamp(chunk.stamps, 3);
   commands.copy(chunk.result, chunk.readback, 4 * size * outputs);
-  commands.stamp(chunk.stamps, 4);
   commands.submit(chunk.fence);
   chunk.under_way = true;
   if (to_pack) packed_ = to_pack;
@@ -316,10 +307,6 @@ void VulkanBackend::read_results(Submission& chunk, std::size_t begin, std::span
   const std::size_t outputs = model_->config.mlp.outputs;
   const std::size_t floats = std::min(kChunkPoints * outputs, out.size() - begin * outputs);
   std::memcpy(out.data() + begin * outputs, chunk.readback.mapped(), 4 * floats);
-  const Device& device = machine_->device();
-  query_seconds_.encode += seconds_between(device, chunk, 1, 2);
-  query_seconds_.network += seconds_between(device, chunk, 2, 3);
-  query_seconds_.copies += seconds_between(device, chunk, 0, 1) + seconds_between(device, chunk, 3, 4);
 }
 
 ModelState VulkanBackend::export_state() const {
@@ -372,10 +359,6 @@ std::unique_ptr<Backend> make_vulkan_backend(std::shared_ptr<Machine> machine,
   return translated(device, "making the cache", [&] {
     return std::make_unique<VulkanBackend>(std::move(machine), std::move(model), options);
   });
-}
-
-QuerySeconds last_query_seconds(const Backend& backend) {
-  return dynamic_cast<const VulkanBackend&>(backend).query_seconds();
 }
 
 }  // namespace gatelight::neural::vulkan

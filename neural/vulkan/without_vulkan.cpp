@@ -1,7 +1,6 @@
 // Replaces this folder's sources in builds without Vulkan.
 
 #include "base/errors.h"
-#include "neural/vulkan/measured_limits.h"
 #include "neural/vulkan/vulkan_backend.h"
 
 namespace gatelight::neural::vulkan {
@@ -37,14 +36,6 @@ std::string machine_name(const Machine&) {
 // NOLINTNEXTLINE(performance-unnecessary-value-param): with Vulkan they are kept
 std::unique_ptr<Backend> make_vulkan_backend(std::shared_ptr<Machine>, std::shared_ptr<const Model>,
                                              const TrainingOptions&) {
-  refuse();
-}
-
-QuerySeconds last_query_seconds(const Backend&) {
-  refuse();
-}
-
-MeasuredLimits measure_limits(Machine&, std::uint64_t) {
   refuse();
 }
 
