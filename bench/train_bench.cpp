@@ -1,9 +1,8 @@
 // train_step/{nrc,nao}/{gate,hashgrid}/{coherent,random}: a training step of 49152 records on one million
-// triangles. small_steps/...: 24 steps of 2048 records each, as pictures have, by one Team.
+// triangles.
 
 #include <string>
 
-#include "base/parallel/team.h"
 #include "bench/neural_rows.h"
 
 namespace gatelight::bench {
@@ -66,43 +65,6 @@ void train_step(benchmark::State& state, const TrainCase& which) {
   });
 }
 
-void small_steps(benchmark::State& state, Order order) {
-  constexpr std::size_t kRecords = 2048, kSteps = kBatchRecords / kRecords;
-  tbb::task_arena(static_cast<int>(state.range(0))).execute([&] {
-    const TrainCase which{{Cache::nrc, Encoding::gate}, order};
-    Learner learner(which);
-    const auto some = [](const auto& span, std::size_t first) {
-      return span.empty() ? span : span.subspan(first, kRecords);
-    };
-    const auto part = [&](const neural::TrainingBatch& all, std::size_t first) {
-      const neural::QueryBatch& p = all.points;
-      const neural::QueryBatch points{
-          some(p.surfaces, first),  some(p.triangles, first),   some(p.barycentrics, first),
-          some(p.positions, first), some(p.directions, first),  some(p.normals, first),
-          some(p.albedos, first),   some(p.roughnesses, first), kRecords};
-      return neural::TrainingBatch{points, all.targets.subspan(3 * first, 3 * kRecords)};
-    };
-    const auto all_steps = [&] {
-      const neural::TrainingBatch batch = learner.batches[learner.steps++];
-      Team::run([&](Team& team) {
-        for (std::size_t i = 0; i < kSteps; ++i) learner.backend->train(part(batch, i * kRecords), team);
-      });
-    };
-    const double seconds = timed_seconds(state, all_steps);
-    state.counters["step_ms"] = 1e3 * seconds / static_cast<double>(state.iterations() * kSteps);
-  });
-}
-
-const bool small_registered = [] {
-  for (const Order order : {Order::coherent, Order::random}) {
-    const std::string name = "small_steps/" + order_name(order);
-    auto* const row = benchmark::RegisterBenchmark(name.c_str(), small_steps, order);
-    row->ArgName("threads")->UseRealTime()->Unit(benchmark::kMillisecond);
-    for (const int threads : {1, 2, 4, 8, 16, 32, 64}) row->Arg(threads);
-  }
-  return true;
-}();
-
 const bool train_registered = [] {
   const auto add = [](TrainCase which, const char* suffix) {
     for (const Order order : {Order::coherent, Order::random, Order::sorted}) {
@@ -113,8 +75,7 @@ const bool train_registered = [] {
     }
   };
   for (const Cache cache : {Cache::nrc, Cache::nao}) {
-    for (const Encoding encoding :
-         {Encoding::gate, Encoding::hash_grid, Encoding::hash_grid_m, Encoding::hash_grid_s}) {
+    for (const Encoding encoding : {Encoding::gate, Encoding::hash_grid}) {
       TrainCase which{{cache, encoding}};
       add(which, "");
       if (encoding == Encoding::gate) {
