@@ -12,6 +12,14 @@ std::string sentence(const ErrorParts& parts) {
   return text + problem + (expected.empty() ? "" : ", expected " + expected) + hint;
 }
 
+std::string one_line(std::string text) {
+  for (char& c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < 0x20 || byte == 0x7f) c = ' ';
+  }
+  return text;
+}
+
 Error::Error(ErrorKind kind, ErrorParts parts)
     : std::runtime_error(sentence(parts)), kind_(kind), parts_(std::move(parts)) {}
 

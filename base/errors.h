@@ -39,6 +39,9 @@ struct ErrorParts {
 /// levels, expected at most 2" or "fps: there are no frames, expected `frames` or `turntable`".
 std::string sentence(const ErrorParts& parts);
 
+/// Control characters become spaces, so that text of a file or a library is safe to print in one line.
+std::string one_line(std::string text);
+
 /// The message is one line and names the file or option, the value and what was expected. Names of other
 /// options are in back-ticks.
 class Error : public std::runtime_error {

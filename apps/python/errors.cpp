@@ -28,7 +28,7 @@ py::handle error_class;
 void raise_current(ErrorParts parts) {
   apps::Failure failure = apps::describe_current_exception();
   std::replace(parts.option.begin(), parts.option.end(), '-', '_');
-  const std::string message = apps::one_line(parts.option.empty() ? failure.message : sentence(parts));
+  const std::string message = one_line(parts.option.empty() ? failure.message : sentence(parts));
   const char* const link = failure.advice.empty() ? "" : message.ends_with('?') ? " " : "; ";
   if (failure.advice == "see --help") failure.advice = "see help(gatelight.render)";
   const py::object error = py::reinterpret_borrow<py::object>(error_class)(message + link + failure.advice);

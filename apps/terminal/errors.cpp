@@ -94,14 +94,6 @@ Failure describe_current_exception() {
   }
 }
 
-std::string one_line(std::string text) {
-  for (char& c : text) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (byte < 0x20 || byte == 0x7f) c = ' ';
-  }
-  return text;
-}
-
 void end_program() {
   Failure failure{kUsage, "ended by an internal error", "please report it"};
   if (std::current_exception()) failure = describe_current_exception();

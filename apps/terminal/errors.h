@@ -32,10 +32,6 @@ struct Failure {
 /// Describes the exception that is being handled. Call it in a catch block.
 Failure describe_current_exception();
 
-/// Replaces control characters by spaces. Failures are read line by line, and text from a file must not
-/// control the terminal.
-std::string one_line(std::string text);
-
 /// For std::set_terminate: a failure that could not be caught, such as a thread that cannot be started, also
 /// ends the program with its line and its code.
 [[noreturn]] void end_program();

@@ -270,12 +270,8 @@ void SafetensorsReader::read_in_pieces(const std::string& name, const ByteSink& 
 
 void SafetensorsReader::fail(const std::string& reason) const {
   constexpr std::size_t kLongest = 1000;
-  std::string line = reason.substr(0, kLongest);
-  for (char& c : line) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (byte < 0x20 || byte == 0x7f) c = ' ';
-  }
-  throw CacheFileError(fmt::format("cannot read '{}': {}", path_.string(), line));
+  throw CacheFileError(
+      fmt::format("cannot read '{}': {}", path_.string(), one_line(reason.substr(0, kLongest))));
 }
 
 }  // namespace gatelight

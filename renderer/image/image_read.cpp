@@ -56,12 +56,9 @@ Picture read_as(ImageFormat format, const std::filesystem::path& path) {
   return format == ImageFormat::png ? read_png(path) : image_library().read_hdr(path);
 }
 
-/// Makes one line of a library's message, which may contain line breaks.
-std::string one_line(std::string text) {
-  for (char& c : text) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (byte < 0x20 || byte == 0x7f) c = ' ';
-  }
+/// A library's message, without the end of a sentence.
+std::string reason_of(const std::exception& error) {
+  std::string text = one_line(error.what());
   while (!text.empty() && (text.back() == ' ' || text.back() == '.')) text.pop_back();
   return text;
 }
@@ -94,7 +91,7 @@ Picture read_image(const std::filesystem::path& path) {
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& reason) {
-    throw InputError(fmt::format("cannot read '{}': {}", path.string(), one_line(reason.what())));
+    throw InputError(fmt::format("cannot read '{}': {}", path.string(), reason_of(reason)));
   }
 }
 

@@ -6,11 +6,7 @@ namespace gatelight::scene::gltf {
 
 std::string one_line(std::string_view text) {
   constexpr std::size_t kLongest = 1000;
-  std::string line(text.substr(0, kLongest));
-  for (char& c : line) {
-    const unsigned char byte = static_cast<unsigned char>(c);
-    if (byte < 0x20 || byte == 0x7f) c = ' ';
-  }
+  std::string line = gatelight::one_line(std::string(text.substr(0, kLongest)));
   while (!line.empty() && line.back() == ' ') line.pop_back();
   return line;
 }

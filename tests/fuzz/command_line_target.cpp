@@ -38,7 +38,7 @@ void settle(const Act& act) {
   try {
     act();
   } catch (const BadOption& error) {
-    check_line(apps::one_line(error.what()));
+    check_line(one_line(error.what()));
   }
 }
 

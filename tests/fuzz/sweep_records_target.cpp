@@ -50,9 +50,9 @@ void read_results(Bytes bytes) {
     apps::give_advice(apps::read_results(file.path().parent_path().string()),
                       {.max_error = 0.5, .max_seconds = 9.0});
   } catch (const InputError& error) {
-    check_line(apps::one_line(error.what()));
+    check_line(one_line(error.what()));
   } catch (const nlohmann::ordered_json::exception& error) {
-    check_line(apps::one_line(error.what()));  // the caller reports it as InputError
+    check_line(one_line(error.what()));  // the caller reports it as InputError
   }
 }
 

@@ -71,7 +71,7 @@ void read_flags(const std::string& body) {
     apps::render_command("a.glb", {"--spp=4"}, flags);
     apps::settings_of("a.glb", {"--spp=4"}, flags);
   } catch (const BadOption& error) {
-    check_line(apps::one_line(error.what()));
+    check_line(one_line(error.what()));
   }
 }
 
