@@ -22,7 +22,7 @@ void for_each(std::size_t count, const Body& body) {
     });
   }
   if (count == 1) {
-    body(0);
+    body(std::size_t{0});
     return;
   }
   tbb::parallel_for(

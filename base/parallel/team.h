@@ -103,7 +103,7 @@ void Team::for_each(std::uint32_t count, const Body& body) {
   const Leading none(nullptr);
   if (count == 0) return;
   if (threads_ == 1) {
-    body(0, count);
+    body(std::uint32_t{0}, count);
     return;
   }
   begin(loop_, count, body);
