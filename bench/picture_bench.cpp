@@ -1,5 +1,6 @@
 // picture/SCENE/{paths,denoised,bare,preview,standard,final}/threads:N: whole pictures of 960x540, as
-// gatelight render makes them. Counters are the seconds of their phases.
+// gatelight render makes them. Counters are the seconds of their phases. With --schedule=FILE the last
+// picture's loops and tasks are recorded, for scripts/measure/model-cores.
 
 #include <benchmark/benchmark.h>
 
@@ -7,6 +8,8 @@
 #include <optional>
 #include <string>
 
+#include "base/parallel/schedule.h"
+#include "bench/schedule_file.h"
 #include "bench/world_fixture.h"
 #include "renderer/render.h"
 #include "renderer/settings/presets.h"
@@ -68,7 +71,17 @@ void make_picture(benchmark::State& state, const SceneCase& which, const Kind& k
     ready.renderer = std::make_unique<renderer::Renderer>(*ready.scene, options_of(which, kind, threads));
     ready.row = row;
   }
-  for (auto _ : state) ready.renderer->render();
+  std::string record;
+  for (auto _ : state) {
+    if (schedule_file().empty()) {
+      ready.renderer->render();
+    } else {
+      const schedule::Recording recording;
+      ready.renderer->render();
+      record = recording.json(threads);
+    }
+  }
+  if (!record.empty()) write_schedule(record);
   const renderer::RenderStatistics& s = ready.renderer->statistics();
   state.counters["scout"] = s.cache.scout_seconds;
   state.counters["setup"] = s.cache.setup_seconds;

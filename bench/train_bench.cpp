@@ -4,6 +4,7 @@
 #include <string>
 
 #include "bench/neural_rows.h"
+#include "bench/schedule_file.h"
 
 namespace gatelight::bench {
 namespace {
@@ -64,6 +65,51 @@ void train_step(benchmark::State& state, const TrainCase& which) {
     state.counters["feature_MB"] = static_cast<double>(learner->backend->parameter_bytes()) / 1e6;
   });
 }
+
+void small_steps(benchmark::State& state, Order order) {
+  constexpr std::size_t kRecords = 2048, kSteps = kBatchRecords / kRecords;
+  const int threads = static_cast<int>(state.range(0));
+  tbb::task_arena(threads).execute([&] {
+    const TrainCase which{{Cache::nrc, Encoding::gate}, order};
+    Learner learner(which);
+    const auto some = [](const auto& span, std::size_t first) {
+      return span.empty() ? span : span.subspan(first, kRecords);
+    };
+    const auto part = [&](const neural::TrainingBatch& all, std::size_t first) {
+      const neural::QueryBatch& p = all.points;
+      const neural::QueryBatch points{
+          some(p.surfaces, first),  some(p.triangles, first),   some(p.barycentrics, first),
+          some(p.positions, first), some(p.directions, first),  some(p.normals, first),
+          some(p.albedos, first),   some(p.roughnesses, first), kRecords};
+      return neural::TrainingBatch{points, all.targets.subspan(3 * first, 3 * kRecords)};
+    };
+    const auto all_steps = [&] {
+      const neural::TrainingBatch batch = learner.batches[learner.steps++];
+      Team::run([&](Team& team) {
+        for (std::size_t i = 0; i < kSteps; ++i) learner.backend->train(part(batch, i * kRecords), team);
+      });
+    };
+    std::string record;
+    const double seconds = timed_seconds(state, [&] {
+      if (schedule_file().empty()) return all_steps();
+      const schedule::Recording recording;
+      all_steps();
+      record = recording.json(threads);
+    });
+    if (!record.empty()) write_schedule(record);
+    state.counters["step_ms"] = 1e3 * seconds / static_cast<double>(state.iterations() * kSteps);
+  });
+}
+
+const bool small_registered = [] {
+  for (const Order order : {Order::coherent, Order::random}) {
+    const std::string name = "small_steps/" + order_name(order);
+    auto* const row = benchmark::RegisterBenchmark(name.c_str(), small_steps, order);
+    row->ArgName("threads")->UseRealTime()->Unit(benchmark::kMillisecond);
+    for (const int threads : {1, 2, 4, 8, 16, 32, 64}) row->Arg(threads);
+  }
+  return true;
+}();
 
 const bool train_registered = [] {
   const auto add = [](TrainCase which, const char* suffix) {

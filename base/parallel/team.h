@@ -10,6 +10,8 @@
 #include <cstdint>
 #include <exception>
 
+#include "base/parallel/schedule.h"
+
 namespace gatelight {
 
 /// A lead runs on the calling thread, and the other threads of the arena wait for its loops. While the lead
@@ -24,14 +26,16 @@ class Team {
   /// For the lead: calls body(begin, end) for ranges that together are [0, count). How they are cut depends
   /// on the threads; the smallest has one index.
   template <class Body>
-  void for_each(std::uint32_t count, const Body& body);
+  void for_each(std::uint32_t count, const Body& body, const char* file = __builtin_FILE(),
+                int line = __builtin_LINE());
 
   /// For the lead: runs lead(), and task(i) for each i < tasks, begun in their order. The other threads do
   /// tasks first, and take part in the loops of the lead when no task is left; when the lead is done, its
   /// thread does tasks too. So no thread is idle while there is work that it could do. Returns when all is
   /// done. Throws what either throws; where the lead does, tasks that have not begun are left out.
   template <class Lead, class Task>
-  void beside(std::uint32_t tasks, const Task& task, const Lead& lead);
+  void beside(std::uint32_t tasks, const Task& task, const Lead& lead, const char* file = __builtin_FILE(),
+              int line = __builtin_LINE());
 
   /// The team whose lead the calling thread is, outside of its loops and tasks; null: none.
   static Team* led_here() { return led_; }
@@ -99,23 +103,25 @@ void Team::begin(Work& work, std::uint32_t count, const Run& run) {
 }
 
 template <class Body>
-void Team::for_each(std::uint32_t count, const Body& body) {
+void Team::for_each(std::uint32_t count, const Body& body, const char* file, int line) {
+  schedule::detail::LoopRecord record(schedule::Kind::team, {file, line}, count);
   const Leading none(nullptr);
+  const auto run = [&](std::uint32_t begin, std::uint32_t end) {
+    record.run(begin, end, [&] { body(begin, end); });
+  };
   if (count == 0) return;
-  if (threads_ == 1) {
-    body(std::uint32_t{0}, count);
-    return;
-  }
-  begin(loop_, count, body);
+  if (threads_ == 1) return run(0, count);
+  begin(loop_, count, run);
   while (loop_.take_part(2 * threads_)) {
   }
   loop_.end();
 }
 
 template <class Lead, class Task>
-void Team::beside(std::uint32_t tasks, const Task& task, const Lead& lead) {
+void Team::beside(std::uint32_t tasks, const Task& task, const Lead& lead, const char* file, int line) {
+  schedule::detail::LoopRecord record(schedule::Kind::with, {file, line}, tasks);
   const auto run = [&](std::uint32_t begin, std::uint32_t end) {
-    for (std::uint32_t i = begin; i < end; ++i) task(std::size_t{i});
+    for (std::uint32_t i = begin; i < end; ++i) record.run(i, i + 1, [&] { task(std::size_t{i}); });
   };
   if (threads_ > 1) begin(tasks_, tasks, run);
   try {
@@ -124,6 +130,7 @@ void Team::beside(std::uint32_t tasks, const Task& task, const Lead& lead) {
     if (threads_ > 1) tasks_.cancel();
     throw;
   }
+  record.lead_ends();
   const Leading none(nullptr);
   if (threads_ == 1) return run(0, tasks);
   while (tasks_.take_part(~0u)) {

@@ -12,6 +12,7 @@
 #include "base/clock.h"
 #include "base/errors.h"
 #include "base/parallel/loops.h"
+#include "base/parallel/schedule.h"
 #include "base/parallel/team.h"
 #include "renderer/cache/cache_backend.h"
 #include "renderer/cache/cache_model.h"
@@ -90,6 +91,7 @@ CacheSession::CacheSession(const World& world, const Camera& camera, const Pixel
   if (setup) {
     setup_ = *setup;
   } else {
+    const schedule::Section section("scout");
     Scouting scouting;
     Team::run([&](Team&) { scouting.add(world, camera, region, options, exchange_); });
     ScoutReport report = scouting.report(world.scene, options);

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/clock.h"
+#include "base/parallel/schedule.h"
 #include "base/parallel/team.h"
 #include "renderer/cache/cache_session.h"
 
@@ -52,6 +53,7 @@ RecordRequest CacheSession::request(std::uint64_t step, std::uint64_t count,
 }
 
 void CacheSession::learn(const RecordBatch& group, std::uint64_t batch, Team& team) {
+  const schedule::Section section("step");
   trainer_->start(group.batch(batch), &team);
   ++steps_;
   ++steps_under_way_;
@@ -156,6 +158,7 @@ void CacheSession::trace_and_learn(Group* next, Group* learning, const Watch& wa
 }
 
 void CacheSession::train(std::uint64_t steps, const Watch& watch) {
+  const schedule::Section section("train");
   Team::run([&](Team& team) { train(steps, watch, team); });
 }
 

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "base/errors.h"
+#include "base/parallel/schedule.h"
 
 namespace gatelight::renderer {
 namespace {
@@ -86,6 +87,7 @@ class Denoiser::Filter {
   }
   /// False where the progress cancelled it.
   bool execute(Progress progress) {
+    const schedule::Section section("oidn");
     api_.SetFilterProgressMonitorFunction(filter_.get(), monitor, &progress);
     commit();
     api_.ExecuteFilter(filter_.get());
@@ -144,6 +146,7 @@ Denoiser::Filter& Denoiser::filter_of(const FilterKind& kind) {
 
 void Denoiser::prepare(int width, int height, const FilterOptions& options, bool guides) {
   const std::lock_guard lock(mutex_);
+  const schedule::Section section("beside");
   const std::vector<float> none(3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
   // The largest comes first: all of them share its memory.
   const auto make = [&](FilterKind::Plane plane) {

@@ -12,6 +12,7 @@
 #include "base/clock.h"
 #include "base/errors.h"
 #include "base/file/atomic_file.h"
+#include "base/parallel/schedule.h"
 #include "renderer/driver/error_checks.h"
 #include "renderer/driver/picture_checkpoint.h"
 #include "renderer/driver/picture_stages.h"
@@ -63,6 +64,7 @@ class PictureRun {
 
   /// Work whose time does not depend on the picture's samples comes first, so that a time limit includes it.
   void plan() {
+    const schedule::Section section("plan");
     mattes_ = make_cryptomattes(context_, sums_.cryptomatte_seconds);
     budget_.limit = options_.time_limit_seconds;
     if (budget_.limit > 0.0) budget_.finish = expect_finish_seconds(context_);
@@ -76,6 +78,7 @@ class PictureRun {
 
   void train() {
     if (!uses_cache(options_.integrator)) return;
+    const schedule::Section section("cache");
     if (memory_) {
       training_ = std::make_unique<Training>(context_, *memory_);
       return training_->train_on(film_, *memory_);
@@ -107,6 +110,7 @@ class PictureRun {
   }
 
   void run_passes(SampleLoop& loop) {
+    const schedule::Section section("passes");
     loop.begin_at(sums_.earlier.spp);
     limit_passes(loop);
     if (training_ && training_->stopped()) loop.stop();
@@ -177,6 +181,7 @@ class PictureRun {
 
   /// The picture of the film, with its statistics.
   Picture finish_film(const SampleLoop& loop, FrameMemory* memory) {
+    const schedule::Section section("finish");
     FinishedPicture finished = finish(context_, film_, loop.stopped(), statistics_, memory);
     denoising_stopped_ = finished.stopped;
     return std::move(finished.picture);
