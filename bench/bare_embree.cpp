@@ -46,10 +46,11 @@ void BareEmbree::trace_single(std::span<const renderer::Ray> rays, bool shadow) 
   }
 }
 
-void BareEmbree::trace_packets(std::span<const renderer::Ray> rays, bool shadow, bool coherent) const {
+std::size_t BareEmbree::trace_packets(std::span<const renderer::Ray> rays, bool shadow, bool coherent) const {
   renderer::EmbreeQuery query(coherent);
   alignas(64) RTCRayHit16 packet{};
   alignas(64) int valid[16];
+  std::size_t missed = 0;
   for (std::size_t first = 0; first < rays.size(); first += 16) {
     for (std::size_t i = 0; i < 16; ++i) {
       valid[i] = first + i < rays.size() ? -1 : 0;
@@ -69,8 +70,12 @@ void BareEmbree::trace_packets(std::span<const renderer::Ray> rays, bool shadow,
     } else {
       query.intersect(valid, scene_, packet);
     }
-    benchmark::DoNotOptimize(packet);
+    for (std::size_t i = 0; i < 16; ++i) {
+      const bool hit = shadow ? packet.ray.tfar[i] < 0.0f : packet.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID;
+      missed += valid[i] != 0 && !hit ? 1 : 0;
+    }
   }
+  return missed;
 }
 
 }  // namespace gatelight::bench

@@ -33,7 +33,8 @@ class BareEmbree {
   RTCScene scene() const { return scene_; }
 
   void trace_single(std::span<const renderer::Ray> rays, bool shadow) const;
-  void trace_packets(std::span<const renderer::Ray> rays, bool shadow, bool coherent) const;
+  /// Returns the number of rays that hit nothing.
+  std::size_t trace_packets(std::span<const renderer::Ray> rays, bool shadow, bool coherent) const;
 
  private:
   RTCDevice device_;

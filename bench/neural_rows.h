@@ -4,6 +4,8 @@
 #include <benchmark/benchmark.h>
 #include <tbb/task_arena.h>
 
+#include <chrono>
+
 #include "base/platform/threads.h"
 #include "bench/neural_fixture.h"
 #include "neural/cpu/cpu_backend.h"
@@ -15,6 +17,19 @@ namespace gatelight::bench {
 inline tbb::task_arena& all_threads() {
   static tbb::task_arena arena(available_threads());
   return arena;
+}
+
+/// Runs the row. Returns the elapsed seconds of all its iterations.
+template <class Body>
+double timed_seconds(benchmark::State& state, Body&& body) {
+  using Clock = std::chrono::steady_clock;
+  Clock::duration elapsed{};
+  for (auto _ : state) {
+    const Clock::time_point start = Clock::now();
+    body();
+    elapsed += Clock::now() - start;
+  }
+  return std::chrono::duration<double>(elapsed).count();
 }
 
 /// The counter is a mean per iteration, in milliseconds.

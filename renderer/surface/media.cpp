@@ -29,31 +29,9 @@ Color extinction_of(const scene::Material& m) {
   return (-m.attenuation_color.max(1e-30f).log() / m.attenuation_distance).min(1e30f);
 }
 
-namespace {
-
-/// Fog fills the bounds of the scene and of its lamps. A little more, so that their surfaces are inside.
-ScatteringMedium fog_of(const scene::Scene& scene, const FogOptions& options) {
-  Box box = scene.bounds;
-  for (const scene::PunctualLight& light : scene.lights) {
-    if (light.type != scene::LightType::directional) box.extend(light.position);
-  }
-  if (!box.isEmpty()) {
-    const Vec3 margin = Vec3::Constant(1e-3f * box.diagonal().norm());
-    box = Box(box.min() - margin, box.max() + margin);
-  }
-  return {.extinction = Color::Constant(options.density),
-          .albedo = options.albedo,
-          .anisotropy = options.anisotropy,
-          .scatters = !box.isEmpty(),
-          .color = options.albedo,
-          .sampled = true,
-          .box = box};
-}
-
-}  // namespace
-
 Media::Media(const scene::Scene& scene, bool nested_volumes, bool unrefracted_glass,
-             const std::optional<FogOptions>& fog) {
+             const std::optional<ScatteringMedium>& fog)
+    : fog_(fog) {
   for (const scene::Material& m : scene.materials) {
     insides_.push_back({.extinction = extinction_of(m),
                         .albedo = m.scatters()
@@ -77,10 +55,7 @@ Media::Media(const scene::Scene& scene, bool nested_volumes, bool unrefracted_gl
       warning_ = fmt::format("{}: bodies of {} have holes: they absorb light and do not scatter it",
                              scene.path, names);
   }
-  if (fog) {
-    fog_ = fog_of(scene, *fog);
-    if (fog_.scatters) air_.inside = &fog_;
-  }
+  if (fog_) air_.inside = &*fog_;
   if (!nested_volumes && !air_.inside) return;
   // Fog needs to know where it is not: inside all bodies.
   scene::NestedVolumes nested = scene::find_nested_volumes(scene, air_.inside != nullptr);

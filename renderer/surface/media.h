@@ -10,7 +10,6 @@
 
 #include "renderer/bsdf/bsdf.h"
 #include "renderer/medium/scattering_medium.h"
-#include "renderer/settings/environment_options.h"
 #include "scene/nested_volumes.h"
 
 namespace gatelight::renderer {
@@ -53,7 +52,7 @@ class Media {
   /// `nested`: SceneRequirements::nested_volumes. Otherwise none is searched, unless there is fog around
   /// them. `unrefracted_glass`: GlassShadows::straight.
   Media(const scene::Scene& scene, bool nested, bool unrefracted_glass,
-        const std::optional<FogOptions>& fog = {});
+        const std::optional<ScatteringMedium>& fog = {});
   Media(const Media&) = delete;
   Media& operator=(const Media&) = delete;
 
@@ -83,7 +82,7 @@ class Media {
 
  private:
   std::vector<ScatteringMedium> insides_;  ///< by material
-  ScatteringMedium fog_;
+  std::optional<ScatteringMedium> fog_;
   std::string warning_;
   std::vector<std::uint32_t> of_instance_;
   std::vector<Medium> media_;  ///< by volume

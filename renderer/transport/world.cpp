@@ -59,6 +59,23 @@ const Accel& updated(std::shared_ptr<Accel>& accel, const scene::Scene& scene, c
   return *accel;
 }
 
+/// Fog fills the bounds of the scene and of its lamps, and a little more, so that their surfaces are inside.
+std::optional<ScatteringMedium> fog_of(const scene::Scene& scene, const std::optional<FogOptions>& fog) {
+  Box box = scene.bounds;
+  for (const scene::PunctualLight& light : scene.lights) {
+    if (light.type != scene::LightType::directional) box.extend(light.position);
+  }
+  if (!fog || box.isEmpty()) return {};
+  const Vec3 margin = Vec3::Constant(1e-3f * box.diagonal().norm());
+  return ScatteringMedium{.extinction = Color::Constant(fog->density),
+                          .albedo = fog->albedo,
+                          .anisotropy = fog->anisotropy,
+                          .scatters = true,
+                          .color = fog->albedo,
+                          .sampled = true,
+                          .box = Box(box.min() - margin, box.max() + margin)};
+}
+
 }  // namespace
 
 World::World(const scene::Scene& scene_in, const WorldOptions& options, const ReusableParts& earlier)
@@ -67,7 +84,7 @@ World::World(const scene::Scene& scene_in, const WorldOptions& options, const Re
       lasting(reusable_parts(scene, options, earlier)),
       textures(*lasting.textures),
       media(scene, requirements.nested_volumes, options.glass_shadows == GlassShadows::straight,
-            options.environment.fog),
+            fog_of(scene, options.environment.fog)),
       environment(*lasting.environment),
       coverage(scene, textures, media, options.glass_shadows == GlassShadows::straight),
       surfaces(scene, textures),

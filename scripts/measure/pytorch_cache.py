@@ -23,6 +23,7 @@ FEATURES, DIRECTION_INPUTS, WIDTH, OUTPUTS = 8, 16, 32, 3
 BATCH = (256, 192)
 PICTURE = (1920, 1080)
 BATCHES = 8
+DEVICE = "cpu"  # main may change it
 
 
 def corners_and_edges(triangle):
@@ -43,7 +44,7 @@ def corners_and_edges(triangle):
 def topology():
     """The nodes of each triangle: of its corners and of the middles of its edges at R = 2, and of its corners at R = 1."""
     corners, edges = corners_and_edges(np.arange(2 * COLUMNS * ROWS))
-    return torch.from_numpy(np.concatenate([corners, VERTICES + edges, VERTICES + EDGES + corners], 1))
+    return torch.from_numpy(np.concatenate([corners, VERTICES + edges, VERTICES + EDGES + corners], 1)).to(DEVICE)
 
 
 def nodes_and_weights(table, triangle, barycentrics):
@@ -71,7 +72,7 @@ def one_blob(direction, bins=8):
     """Theta / pi and phi / 2 pi, a quartic kernel over `bins` each."""
     theta = torch.arccos(direction[:, 2].clamp(-1, 1)) / math.pi
     phi = (torch.atan2(direction[:, 1], direction[:, 0]) / (2 * math.pi)).remainder(1)
-    centres = (torch.arange(bins) + 0.5) / bins
+    centres = (torch.arange(bins, device=DEVICE) + 0.5) / bins
 
     def integral(x):
         x = x.clamp(-1, 1)
@@ -107,6 +108,7 @@ def points(table, order, size, patch):
             "barycentrics": torch.from_numpy(np.stack([b1, b2], 1).astype(np.float32)),
             "unit": torch.from_numpy(direction.astype(np.float32)),
             "targets": torch.from_numpy(random.random((count, OUTPUTS), dtype=np.float32))}
+    made = {name: tensor.to(DEVICE) for name, tensor in made.items()}
     nodes, weights = nodes_and_weights(table, made["triangle"], made["barycentrics"])
     return {**made, "nodes": nodes, "weights": weights, "direction": one_blob(made["unit"])}
 
@@ -140,15 +142,15 @@ class Cache:
     def __init__(self, feature_adam=torch.optim.SparseAdam):
         torch.manual_seed(1)
         count = 2 * VERTICES + EDGES
-        self.features = torch.empty(count, FEATURES).uniform_(-1e-4, 1e-4).requires_grad_()
+        self.features = torch.empty(count, FEATURES, device=DEVICE).uniform_(-1e-4, 1e-4).requires_grad_()
         self.network = torch.nn.Sequential(
             torch.nn.Linear(2 * FEATURES + DIRECTION_INPUTS, WIDTH), torch.nn.LeakyReLU(0.01, inplace=True),
-            torch.nn.Linear(WIDTH, WIDTH), torch.nn.LeakyReLU(0.01, inplace=True), torch.nn.Linear(WIDTH, OUTPUTS))
+            torch.nn.Linear(WIDTH, WIDTH), torch.nn.LeakyReLU(0.01, inplace=True), torch.nn.Linear(WIDTH, OUTPUTS)).to(DEVICE)
         options = {"lr": 1e-2, "betas": (0.9, 0.99), "eps": 1e-15}
         features = [self.features] if feature_adam is torch.optim.SparseAdam else self.features
         self.optimizers = [feature_adam(features, **options),
                            torch.optim.Adam(self.network.parameters(), weight_decay=1e-6, **options)]
-        self.luminance = torch.tensor([0.299, 0.587, 0.114])
+        self.luminance = torch.tensor([0.299, 0.587, 0.114], device=DEVICE)
 
     def encode(self, nodes, weights, direction, features):
         found = functional.embedding_bag(nodes, features, per_sample_weights=weights, mode="sum", sparse=True)
@@ -181,13 +183,20 @@ class Cache:
             out[begin:end] = network(x.to(dtype)).clamp_(min=0)
 
 
+def wait():
+    if DEVICE != "cpu":
+        torch.cuda.synchronize()
+
+
 def median_ms(run, repetitions, warm_up):
     for i in range(warm_up):
         run(i)
     times = []
     for i in range(repetitions):
+        wait()
         start = time.perf_counter()
         run(i)
+        wait()
         times.append(1e3 * (time.perf_counter() - start))
     return statistics.median(times)
 
@@ -199,8 +208,8 @@ def check(table):
     b1, b2 = random.random((2, len(triangle)))
     b1, b2 = np.where(b1 + b2 > 1, 1 - b1, b1), np.where(b1 + b2 > 1, 1 - b2, b2)
     corners, edges = corners_and_edges(triangle)
-    nodes, weights = (found.view(-1, 6).numpy() for found in nodes_and_weights(
-        table, torch.from_numpy(triangle), torch.from_numpy(np.stack([b1, b2], 1))))
+    nodes, weights = (found.view(-1, 6).cpu().numpy() for found in nodes_and_weights(
+        table, torch.from_numpy(triangle).to(DEVICE), torch.from_numpy(np.stack([b1, b2], 1)).to(DEVICE)))
     field = np.full((len(triangle), 3), [1.0, 5.0, -2.0])
     middles = (field.sum(1, keepdims=True) - field) / 2
     value = np.zeros(len(triangle))
@@ -210,8 +219,8 @@ def check(table):
                 value += np.where(nodes[:, k] == number[:, m], weights[:, k] * at[:, m], 0)
     expected = (1 - b1 - b2) * 1.0 + b1 * 5.0 + b2 * -2.0
     assert np.allclose(value, expected) and np.allclose(weights.sum(1), 2), "the lookups are wrong"
-    blobs = one_blob(torch.from_numpy(random.normal(size=(1000, 3)) / 9 + [0, 1, 0]))
-    assert np.allclose(blobs[:, 8:].sum(1), 1), "the direction's encoding is wrong"
+    blobs = one_blob(torch.from_numpy(random.normal(size=(1000, 3)) / 9 + [0, 1, 0]).to(DEVICE))
+    assert np.allclose(blobs[:, 8:].sum(1).cpu(), 1), "the direction's encoding is wrong"
 
 
 def main():
@@ -220,7 +229,10 @@ def main():
     parser.add_argument("--steps", type=int, required=True)
     parser.add_argument("--queries", type=int, required=True)
     parser.add_argument("--chunk", type=int, required=True)
+    parser.add_argument("--device", default="cpu", help="cpu or cuda")
     options = parser.parse_args()
+    global DEVICE  # pylint: disable=global-statement
+    DEVICE = options.device
     table = topology()
     check(table)
     torch.set_num_threads(options.threads)
@@ -236,12 +248,12 @@ def main():
             assert losses[-1] < first, f"PyTorch does not learn: loss {first} to {losses[-1]}"
         assert math.isclose(*losses, rel_tol=0.02), f"both ways to update are not the same: losses {losses}"
         picture = points(table, order, PICTURE, 0)
-        out = torch.empty(PICTURE[0] * PICTURE[1], OUTPUTS)
+        out = torch.empty(PICTURE[0] * PICTURE[1], OUTPUTS, device=DEVICE)
         half = torch.nn.Sequential(*[
             torch.nn.LeakyReLU(0.01, inplace=True) if not hasattr(layer, "weight") else
             torch.nn.Linear(layer.in_features, layer.out_features) for layer in cache.network])
         half.load_state_dict(cache.network.state_dict())
-        half.bfloat16()
+        half.bfloat16().to(DEVICE)
         for name, network, dtype in (("fp32", cache.network, torch.float32), ("bf16", half, torch.bfloat16)):
             result[f"query/{order}/{name}"] = median_ms(
                 lambda _: cache.query(picture, out, network, dtype, options.chunk), options.queries, 1)
@@ -252,6 +264,8 @@ def main():
     with open("/proc/self/maps", encoding="utf-8") as file:
         result["openblas"] = "openblas" in file.read()
     result["torch"] = torch.__version__
+    if DEVICE != "cpu":
+        result["device"] = torch.cuda.get_device_name()
     print(json.dumps(result))
 
 
