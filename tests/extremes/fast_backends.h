@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "tests/neural/extreme_batches.h"
 #include "tests/support/agreement.h"
 
 namespace gatelight::neural::testing {
@@ -48,17 +49,6 @@ class FastAgreement : public Agreement {
 
 inline bool all_finite(std::span<const float> values) {
   return std::all_of(values.begin(), values.end(), [](float x) { return std::isfinite(x); });
-}
-
-/// Expects no NaN and no infinity in state and answers, and no negative second moment.
-inline void expect_sound(const Backend& backend, const Model& model, const OwnedBatch& batch) {
-  const ModelState state = backend.export_state();
-  for (const auto* values : {&state.parameters, &state.averages, &state.first_moments, &state.second_moments})
-    EXPECT_TRUE(all_finite(*values)) << backend.name();
-  EXPECT_GE(*std::min_element(state.second_moments.begin(), state.second_moments.end()), 0.0f);
-  for (const QueryPrecision precision : {QueryPrecision::fp32, QueryPrecision::bf16})
-    EXPECT_TRUE(all_finite(answers(backend, model, batch, {precision, OutputRange::non_negative, true})))
-        << backend.name();
 }
 
 /// The worst difference of answers from the reference, over every fast backend.

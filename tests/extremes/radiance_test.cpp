@@ -7,6 +7,7 @@
 #include "renderer/image/image_read.h"
 #include "renderer/image/image_write.h"
 #include "tests/extremes/pictures.h"
+#include "tests/support/materials.h"
 #include "tests/support/room.h"
 #include "tests/support/statistics.h"
 #include "tests/support/temporary_folder.h"
@@ -76,11 +77,7 @@ TEST(Radiance, ASunThroughAKeyholeLightsItsPatchAndNothingElse) {
     builder.quad(m, Vec3(-2, 2, s > 0 ? h : -2), Vec3(4, 0, 0), Vec3(0, 0, 2 - h));
     builder.quad(m, Vec3(s > 0 ? h : -2, 2, -h), Vec3(2 - h, 0, 0), Vec3(0, 0, kHole));
   }
-  scene::PunctualLight sun;
-  sun.type = scene::LightType::directional;
-  sun.direction = Vec3(0, -1, 0);
-  sun.intensity = Color::Constant(kSun);
-  builder.scene().lights.push_back(sun);
+  builder.scene().lights.push_back(testing::sun(Vec3(0, -1, 0), Color::Constant(kSun)));
   RenderOptions options = small(Integrator::path, 64);
   options.filter = PixelFilter::box;
   options.width = options.height = 32;

@@ -1,7 +1,6 @@
 // --checkpoint with --resume: as cache_file_target.cpp, with the film beside the cache.
 
 #include <cmath>
-#include <vector>
 
 #include "base/errors.h"
 #include "renderer/driver/checkpoint.h"

@@ -1,9 +1,5 @@
 // Scene files: their bytes as they are, and files put together of JSON and binary data, whose lengths fit.
 
-#include <algorithm>
-#include <cstring>
-#include <vector>
-
 #include "scene/gltf.h"
 #include "scene/requirements.h"
 #include "tests/fuzz/input_file.h"

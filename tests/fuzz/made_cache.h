@@ -2,7 +2,6 @@
 // A tiny scene with the cache of its files, and files whose digest is corrected after a mutation.
 
 #include <memory>
-#include <string>
 #include <vector>
 
 #include "renderer/cache/cache_state.h"

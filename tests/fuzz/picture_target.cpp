@@ -2,7 +2,6 @@
 // chooses.
 
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "renderer/denoise/denoising_layers.h"

@@ -6,7 +6,6 @@
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "apps/settings/parsing.h"
 #include "apps/terminal/errors.h"

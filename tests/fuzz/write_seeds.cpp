@@ -3,7 +3,6 @@
 
 #include <cstdio>
 #include <filesystem>
-#include <string>
 
 #include "renderer/cache/cache_file.h"
 #include "renderer/film/camera_sample.h"

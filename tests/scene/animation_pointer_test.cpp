@@ -4,9 +4,10 @@
 
 #include <cmath>
 
+#include "tests/support/animated_file.h"
 #include "tests/support/gltf_parts.h"
-#include "tests/support/moved_triangle.h"
 #include "tests/support/small_pngs.h"
+#include "tests/support/words.h"
 
 namespace gatelight::scene {
 namespace {
@@ -201,33 +202,16 @@ TEST(AnimationPointers, ValuesOutOfRangeAreClamped) {
 }
 
 TEST(AnimationPointers, ToOtherPlacesAreIgnoredWithAWarning) {
-  for (const char* pointer : {"/materials/0/extensions/KHR_materials_ior/ior",
-                              "/materials/9/alphaCutoff",
-                              "/materials/0/doubleSided",
-                              "/materials/0/name",
-                              "/materials/0/pbrMetallicRoughness",
-                              "/materials/0/occlusionTexture/strength",
-                              "/materials/x/alphaCutoff",
-                              "/materials/0/emissiveTexture/extensions/KHR_texture_transform/rotation",
-                              "/materials",
-                              "/materials/",
-                              "/cameras/0/perspective/zfar",
-                              "/cameras/0/perspective/yfov/0",
-                              "/nodes/0/matrix",
-                              "/nodes/0/weights",
-                              "/nodes/0/weights/0",
-                              "/nodes/0/weights/0/0",
-                              "/nodes/0/extras/speed",
-                              "/accessors/0/count",
-                              "/scene",
-                              "/extensions/KHR_lights_punctual/lights/4/intensity",
-                              "/extensions/EXT_lights_image_based/lights/0/intensity",
-                              "/extensions/KHR_lights_punctual/lights",
-                              "/extensions",
-                              "//",
-                              "/",
-                              "materials",
-                              "/meshes/0/weights"}) {
+  for (const std::string& pointer : tests::words_of(
+           "/materials/0/extensions/KHR_materials_ior/ior /materials/9/alphaCutoff "
+           "/materials/0/doubleSided /materials/0/name /materials/0/pbrMetallicRoughness "
+           "/materials/0/occlusionTexture/strength /materials/x/alphaCutoff "
+           "/materials/0/emissiveTexture/extensions/KHR_texture_transform/rotation /materials "
+           "/materials/ /cameras/0/perspective/zfar /cameras/0/perspective/yfov/0 /nodes/0/matrix "
+           "/nodes/0/weights /nodes/0/weights/0 /nodes/0/weights/0/0 /nodes/0/extras/speed "
+           "/accessors/0/count /scene /extensions/KHR_lights_punctual/lights/4/intensity "
+           "/extensions/EXT_lights_image_based/lights/0/intensity "
+           "/extensions/KHR_lights_punctual/lights /extensions // / materials /meshes/0/weights")) {
     AnimatedFile file = lit_triangle();
     file.move(pointer, {file.seconds({0, 1}), file.scalars({0, 1})});
     const Scene scene = file.at(0.5);

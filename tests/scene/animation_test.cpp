@@ -4,9 +4,8 @@
 
 #include <cmath>
 
-#include "scene/gltf/animation.h"
+#include "tests/support/animated_file.h"
 #include "tests/support/gltf_parts.h"
-#include "tests/support/moved_triangle.h"
 
 namespace gatelight::scene {
 namespace {
@@ -254,24 +253,6 @@ TEST(Animations, AMatrixIsTakenApart) {
   EXPECT_EQ(Vec3(scene.instances[0].transform.translation()), Vec3(1, 1, 1));
   EXPECT_LT((scene.instances[0].transform.linear() - still).cwiseAbs().maxCoeff(), 1e-6f);
   expect_messages(scene.warnings, {{"matrix"}});
-}
-
-TEST(Animations, ADocumentShowsAnyTimesInAnyOrder) {
-  AnimatedFile file = morphing_triangle();
-  file.root["nodes"][0]["translation"] = {8, 8, 8};
-  file.move(0, "translation", {file.seconds({0, 1}), file.vectors({0, 0, 0, 2, 4, 6})});
-  file.move(0, "weights", {file.seconds({0, 1}), file.scalars({0, 1, 1, 0.5f})});
-  const TemporaryFolder folder;
-  gltf::Warnings warnings;
-  gltf::Document document(file.write(folder), {.time = 0.0}, warnings);
-  const gltf::Animator animator(document, warnings);
-  const gltf::tinygltf::Node& node = document.model().nodes[0];
-  for (const double time : {1.0, 0.0, 0.5, 0.25, 0.5}) {
-    animator.apply(time, warnings);
-    EXPECT_EQ(node.translation, (std::vector<double>{2 * time, 4 * time, 6 * time}));
-    EXPECT_EQ(node.weights, (std::vector<double>{time, 1 - 0.5 * time}));
-  }
-  EXPECT_TRUE(warnings.take().empty());
 }
 
 }  // namespace

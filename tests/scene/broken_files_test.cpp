@@ -130,20 +130,8 @@ TEST_F(Mutation, ChangedJsonValuesAreLoadedOrRefused) {
       json::parse(whole.begin() + 20, whole.begin() + 20 + static_cast<std::ptrdiff_t>(size));
   const std::size_t bin_start = 20 + size + 8;
   const json flat = original.flatten();
-  const std::vector<json> values = {nullptr,
-                                    true,
-                                    -1,
-                                    0,
-                                    1,
-                                    7,
-                                    4294967295u,
-                                    1e300,
-                                    0.5,
-                                    "text",
-                                    json::array(),
-                                    json::object(),
-                                    json::array({0, 1, 2}),
-                                    json{{"a", 1}}};
+  const json values = json::parse(
+      R"([null, true, -1, 0, 1, 7, 4294967295, 1e300, 0.5, "text", [], {}, [0, 1, 2], {"a": 1}])");
   for (const auto& [pointer, ignored] : flat.items()) {
     // Every value, and every container around it.
     for (std::string at = pointer; !at.empty(); at.resize(at.rfind('/'))) {

@@ -49,6 +49,13 @@ void add_skin(GltfBuilder& file, const json& second, json more = json::object())
   file.add("skins", skin);
 }
 
+/// Adds a mesh of the primitive that follows such a skin.
+void add_skinned(GltfBuilder& file, const json& primitive, const json& second, json more = json::object()) {
+  const int mesh = file.mesh(primitive);
+  add_skin(file, second, std::move(more));
+  file.node({{"mesh", mesh}, {"skin", 0}});
+}
+
 const std::vector<std::uint8_t> kBothJoints{0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0};
 const Floats kOfSecond{0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0};  ///< weights
 
@@ -56,9 +63,7 @@ const Floats kOfSecond{0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0};  ///< weights
 GltfBuilder following_second(const json& second, const Floats& weights = kOfSecond,
                              const std::vector<std::uint8_t>& joints = kBothJoints) {
   GltfBuilder file;
-  const int mesh = file.mesh(skinned_triangle(file, joints, weights));
-  add_skin(file, second);
-  file.node({{"mesh", mesh}, {"skin", 0}});
+  add_skinned(file, skinned_triangle(file, joints, weights), second);
   return file;
 }
 
@@ -184,9 +189,7 @@ TEST(Skins, EverySetOfJointsCounts) {
   const std::vector<std::uint8_t> bytes{255, 0, 0, 0, 0, 0, 0, 0, 255, 0, 0, 0};
   primitive["attributes"]["WEIGHTS_1"] =
       file.accessor(bytes, kUnsignedByte, "VEC4", 3, {{"normalized", true}});
-  const int mesh = file.mesh(primitive);
-  add_skin(file, {{"translation", {0, 0, 4}}});
-  file.node({{"mesh", mesh}, {"skin", 0}});
+  add_skinned(file, primitive, {{"translation", {0, 0, 4}}});
   const Mesh m = only_mesh(file.load());
   EXPECT_EQ(m.positions[0], Vec3(0, 0, 2));
   EXPECT_EQ(m.positions[1], Vec3(1, 0, 0));
@@ -198,9 +201,7 @@ TEST(Skins, NormalsStayPerpendicularUnderUnevenScale) {
   const Vec3 n = Vec3(1, 1, 0).normalized();
   primitive["attributes"]["POSITION"] = vectors(file, {0, 0, 0, 1, -1, 0, 0, 0, -1});
   primitive["attributes"]["NORMAL"] = vectors(file, {n.x(), n.y(), 0, n.x(), n.y(), 0, n.x(), n.y(), 0});
-  const int mesh = file.mesh(primitive);
-  add_skin(file, {{"scale", {4, 1, 1}}});
-  file.node({{"mesh", mesh}, {"skin", 0}});
+  add_skinned(file, primitive, {{"scale", {4, 1, 1}}});
   const Mesh m = only_mesh(file.load());
   const Vec3 edge = m.positions[1] - m.positions[0];
   EXPECT_NEAR(m.normals[0].dot(edge.normalized()), 0.0f, 1e-6f);
@@ -275,10 +276,9 @@ TEST(Skins, AJointThatIsNotThereIsRefusedWhereItHasWeight) {
 
 TEST(Skins, TooFewInverseBindMatricesAreRefused) {
   GltfBuilder file;
-  const int mesh = file.mesh(skinned_triangle(file, kBothJoints, {1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}));
   const int matrices = file.accessor(translation(0, 0, 0), kFloat, "MAT4", 1);
-  add_skin(file, {{"translation", {0, 0, 4}}}, {{"inverseBindMatrices", matrices}});
-  file.node({{"mesh", mesh}, {"skin", 0}});
+  add_skinned(file, skinned_triangle(file, kBothJoints, {1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}),
+              {{"translation", {0, 0, 4}}}, {{"inverseBindMatrices", matrices}});
   file.expect_refused({"inverse bind matrices", "1", "2"});
 }
 

@@ -3,7 +3,6 @@
 #include <cstdlib>
 
 #include "scene/gltf.h"
-#include "scene/requirements.h"
 
 namespace gatelight::scene {
 namespace {

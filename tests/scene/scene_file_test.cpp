@@ -1,12 +1,19 @@
-// A file that stays open shows each time as a file that is opened for it.
+// A file that stays open shows each time as a file that is opened for it; the posed figure of data/ against
+// the bounds that its generator computes by itself.
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <nlohmann/json.hpp>
+#include <string>
 
 #include "scene/gltf.h"
 #include "tests/support/animated_file.h"
+#include "tests/support/gltf_builder.h"
 #include "tests/support/gltf_parts.h"
+#include "tests/support/temporary_folder.h"
 
 namespace gatelight::scene {
 namespace {
@@ -47,7 +54,10 @@ void expect_same_scene(const Scene& a, const Scene& b) {
 }
 
 TEST(SceneFile, ShowsTimesInAnyOrder) {
-  for (const std::string& path : {kFigure, kMovingRoom}) {
+  AnimatedFile morphs = morphing_triangle();
+  morphs.move(0, "weights", {morphs.seconds({0, 1}), morphs.scalars({0, 1, 1, 0.5f})});
+  const TemporaryFolder folder;
+  for (const std::string& path : {kFigure, kMovingRoom, morphs.write(folder).string()}) {
     SceneFile file(path, {.time = 0.0});
     Scene scene = file.load();
     for (const double seconds : {0.5, 1.25, 0.0, -3.0, 0.5, 1e6}) {
@@ -130,6 +140,63 @@ TEST(SceneFile, AFlatInstanceGetsAThickness) {
   EXPECT_NEAR(m(0, 0), 3.0f, 1e-5f);
   EXPECT_NEAR(m(1, 1), 2.0f, 1e-5f);
   EXPECT_NEAR(m(2, 2), 3e-5f, 1e-6f);
+}
+
+json json_of_figure() {
+  const std::string file = tests::read_file(kFigure);
+  std::uint32_t length = 0;
+  std::memcpy(&length, file.data() + 12, sizeof length);
+  return json::parse(file.substr(20, length));
+}
+
+Box bounds_of(const Scene& scene, const std::string& name) {
+  Box bounds;
+  for (const Instance& instance : scene.instances) {
+    if (instance.name != name) continue;
+    for (const Vec3& p : scene.mesh_of(instance).positions) bounds.extend(instance.transform * p);
+  }
+  return bounds;
+}
+
+TEST(Figure, HasTheBoundsOfItsPose) {
+  const Scene scene = load_gltf(kFigure);
+  EXPECT_TRUE(scene.warnings.empty());
+  const json expected = json_of_figure()["asset"]["extras"]["posed_bounds"];
+  for (const std::string name : {"body", "face"}) {
+    const Box bounds = bounds_of(scene, name);
+    for (int k = 0; k < 3; ++k) {
+      EXPECT_NEAR(bounds.min()[k], expected[name][0][k].get<float>(), 1e-4f) << name << k;
+      EXPECT_NEAR(bounds.max()[k], expected[name][1][k].get<float>(), 1e-4f) << name << k;
+    }
+    if (name == "body") {
+      EXPECT_NEAR(bounds.min().y(), 0.0f, 1e-3f) << "it stands on the floor";
+    }
+  }
+}
+
+TEST(Figure, WalksInALoop) {
+  const Scene first = load_gltf(kFigure, {.time = 0.0});
+  const Scene last = load_gltf(kFigure, {.time = 1.0});
+  EXPECT_TRUE(first.warnings.empty());
+  ASSERT_EQ(first.animations.size(), 1u);
+  EXPECT_EQ(first.animations[0].name, "walk");
+  EXPECT_EQ(first.animations[0].seconds, 1.0);
+  ASSERT_EQ(first.meshes.size(), last.meshes.size());
+  for (std::size_t i = 0; i < first.meshes.size(); ++i) {
+    for (std::size_t k = 0; k < first.meshes[i].positions.size(); ++k)
+      ASSERT_LT((first.meshes[i].positions[k] - last.meshes[i].positions[k]).norm(), 2e-5f);
+  }
+  const Scene still = load_gltf(kFigure);
+  EXPECT_GT((bounds_of(still, "body").max() - bounds_of(first, "body").max()).norm(), 0.1f)
+      << "it waves no more";
+}
+
+TEST(Figure, WalksOnTheFloor) {
+  for (int k = 0; k < 48; ++k) {
+    const Box body = bounds_of(load_gltf(kFigure, {.time = k / 48.0}), "body");
+    EXPECT_GT(body.min().y(), -0.006f) << "a heel sinks in at " << k;
+    EXPECT_LT(body.min().y(), 1e-6f) << "one foot stands at " << k;
+  }
 }
 
 }  // namespace

@@ -1,7 +1,6 @@
 #pragma once
 // A cache in the state of some training, for the tests of files.
 
-#include <bit>
 #include <cstdint>
 #include <memory>
 

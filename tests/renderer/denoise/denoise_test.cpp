@@ -30,6 +30,15 @@ class DenoisedPictures : public ::testing::Test {
     GATELIGHT_NEEDS_DENOISER();
     denoiser = std::make_unique<Denoiser>(load_oidn(testing::denoiser_place()), 2);
   }
+
+  std::vector<float> denoised(const NoisyImage& image) const {
+    const auto result = denoise(*denoiser, picture_of(image), {}, ScaleDown(1, PixelFilter::box, 0.0f));
+    EXPECT_TRUE(result);
+    EXPECT_EQ(result->color.size(), image.color.size());
+    for (const float value : result->color) EXPECT_TRUE(std::isfinite(value) && value >= 0.0f);
+    return result->color;
+  }
+
   std::unique_ptr<Denoiser> denoiser;
 };
 
@@ -111,6 +120,42 @@ TEST_F(DenoisedPictures, ExpectedTimeGrowsWithThePixels) {
   const double large = expect_denoise_seconds(*denoiser, {}, 2560, 2560);
   EXPECT_GT(small, 0.0);
   EXPECT_GT(large, 20.0 * small);
+}
+
+TEST_F(DenoisedPictures, OfEverySizeAreFiniteAndNotNegative) {
+  for (const auto& [width, height] :
+       {std::pair{1, 1}, {1, 9}, {9, 1}, {2, 3}, {5, 70}, {33, 17}, {400, 2}, {16384, 3}, {3, 8192}}) {
+    SCOPED_TRACE(::testing::Message() << width << "x" << height);
+    denoised(noisy_image(width, height));
+  }
+}
+
+TEST_F(DenoisedPictures, OfBlackStayBlack) {
+  NoisyImage image = noisy_image(40, 30);
+  image.color.assign(image.color.size(), 0.0f);
+  const std::vector<float> color = denoised(image);
+  EXPECT_LT(*std::max_element(color.begin(), color.end()), 1e-3f);
+}
+
+TEST_F(DenoisedPictures, OneBrightSampleChangesOnlyItsNeighbourhood) {
+  constexpr int kReach = 128;
+  const NoisyImage image = noisy_image(320, 280);
+  const std::vector<float> clean = denoised(image);
+  double worst = 0.0;
+  for (const float bright : {1e4f, 1e12f, 1e30f}) {
+    NoisyImage with = image;
+    // The exposure of the picture counts bins of 16x16 pixels by the logarithm, so one changes it a little.
+    with.color[3 * (140 * 320 + 160)] = bright;
+    const std::vector<float> color = denoised(with);
+    for (int y = 0; y < 280; ++y) {
+      for (int x = 0; x < 320; ++x) {
+        if (std::abs(x - 160) <= kReach && std::abs(y - 140) <= kReach) continue;
+        const auto i = 3 * static_cast<std::size_t>(y * 320 + x);
+        worst = std::max(worst, std::abs(static_cast<double>(color[i] - clean[i])));
+      }
+    }
+  }
+  EXPECT_LT(worst, 0.05);
 }
 
 }  // namespace

@@ -65,24 +65,6 @@ TEST_F(Denoisers, DoNotDependOnTheUnitOfLight) {
     EXPECT_LT(deviation(scaled(unit), usual), 1e-3) << unit;
 }
 
-TEST_F(Denoisers, CanBeCancelled) {
-  Denoiser denoiser(load_oidn(testing::denoiser_place()), 2);
-  NoisyImage image = noisy_image(256, 256);
-  double last = 0.0;
-  EXPECT_FALSE(denoiser.filter(image, {}, [&](double done) {
-    last = done;
-    return done < 0.3;
-  }));
-  EXPECT_GE(last, 0.3);
-  // It can be used again.
-  image = noisy_image(64, 64);
-  EXPECT_TRUE(denoiser.filter(image, {}, [&](double done) {
-    EXPECT_GE(done, 0.0);
-    EXPECT_LE(done, 1.0);
-    return true;
-  }));
-}
-
 TEST_F(Denoisers, WorkWithLittleMemory) {
   const NoisyImage clean = clean_image(300, 200);
   NoisyImage image = noisy_image(300, 200);

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include "renderer/image/image_read.h"
 #include "tests/support/messages.h"
 #include "tests/support/noisy_image.h"
 

@@ -1,4 +1,4 @@
-// The clear sky: its light, its sun, and its samples.
+// The clear sky: its light, its sun, and its samples; and the sky of scenes without light.
 
 #include "renderer/light/clear_sky.h"
 
@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "renderer/light/environment.h"
+#include "renderer/light/soft_sky.h"
 #include "renderer/light/sun_disc.h"
 #include "tests/support/light_scenes.h"
 #include "tests/support/messages.h"
@@ -222,6 +223,24 @@ TEST(ClearSky, ExcludesAnotherEnvironment) {
   options.sky = sky(40.0f);
   options.constant = Color::Ones();
   tests::expect_refusal<InputError>([&] { Environment{options}; }, {"`sky`", "`environment`"});
+}
+
+TEST(SoftSky, MakesWhiteSurfacesNeitherDarkNorOverexposed) {
+  EnvironmentOptions options;
+  options.automatic = true;
+  const Environment sky(options);
+  options.scale = 2.0f;
+  const Environment twice(options);
+  for (const Vec3& n : {Vec3(0, 1, 0), Vec3(0, 0, 1), Vec3(-1, 0, 0), Vec3(1, 0, 0)}) {
+    Color reflected = Color::Zero();
+    testing::each_direction(64, [&](const Vec3& d, double solid_angle) {
+      const float share = static_cast<float>(solid_angle) / kPi;
+      reflected += sky.radiance(d) * (std::max(0.0f, n.dot(d)) * share);
+      EXPECT_TRUE(twice.radiance(d).isApprox(2.0f * sky.radiance(d), 1e-5f));
+    });
+    EXPECT_GT(reflected.minCoeff(), 0.2f) << n.transpose();
+    EXPECT_LT(reflected.maxCoeff(), 1.2f) << n.transpose();
+  }
 }
 
 }  // namespace

@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "renderer/image/srgb.h"
 #include "renderer/light/environment.h"
 

@@ -4,11 +4,9 @@
 
 #include <cmath>
 #include <limits>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
-#include "renderer/image/image_read.h"
 #include "renderer/image/image_write.h"
 #include "renderer/light/environment_picture.h"
 #include "renderer/light/lights.h"

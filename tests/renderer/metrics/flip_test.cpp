@@ -5,9 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <filesystem>
 #include <limits>
 
 #include "base/errors.h"
+#include "renderer/image/image_read.h"
 #include "renderer/image/srgb.h"
 #include "renderer/metrics/flip/color_map.h"
 #include "renderer/metrics/flip/exposures.h"
@@ -320,6 +323,21 @@ TEST(FlipMap, ShowsThePublishedColours) {
   EXPECT_EQ(map.height, 2);
   EXPECT_NEAR(linear_to_srgb(map.layers[0].values[5]), 0.749504f, 1e-5);
   EXPECT_NEAR(linear_to_srgb(map.layers[0].values[2]), 0.013866f, 1e-5);
+}
+
+TEST(FlipPair, HasThePublishedMeanAndQuartiles) {
+  const char* folder = std::getenv("GATELIGHT_FLIP_PAIR");
+  if (!folder) GTEST_SKIP() << "GATELIGHT_FLIP_PAIR is not set";
+  const Picture reference = read_image(std::filesystem::path(folder) / "tree-ref.png");
+  const Picture test = read_image(std::filesystem::path(folder) / "tree-test.png");
+  const FlipSummary s = ldr_flip({reference, "tree-ref.png"}, {test, "tree-test.png"}).summary;
+  // nv-flip/src/lib.rs there.
+  EXPECT_NEAR(s.mean, 0.133285, 1e-4);
+  EXPECT_NEAR(s.first_quartile, 0.184924, 1e-4);
+  EXPECT_NEAR(s.weighted_median, 0.333241, 1e-4);
+  EXPECT_NEAR(s.third_quartile, 0.503441, 1e-4);
+  EXPECT_NEAR(s.max, 0.983044, 1e-4);
+  EXPECT_EQ(s.min, 0.0);
 }
 
 }  // namespace

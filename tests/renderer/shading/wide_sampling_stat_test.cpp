@@ -1,7 +1,5 @@
 // Samples of the wide BSDF follow the density of the scalar one, and a furnace gets its light back.
 
-#include <cmath>
-
 #include "tests/renderer/bsdf/bsdf_cases.h"
 #include "tests/renderer/bsdf/bsdf_measures.h"
 #include "tests/renderer/shading/lanes.h"

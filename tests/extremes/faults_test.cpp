@@ -1,6 +1,7 @@
-// Errors of disks and pipes: full, read-only, removed.
+// Errors of disks and pipes, libraries that are missing, renders that are stopped and resumed.
 
 #include <fcntl.h>
+#include <linux/capability.h>
 #include <sched.h>
 #include <signal.h>
 #include <sys/mount.h>
@@ -8,15 +9,14 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-#include <linux/capability.h>
-
 #include "renderer/image/image_read.h"
+#include "renderer/image/image_write.h"
 #include "tests/extremes/faults.h"
 
 namespace gatelight::tests {
 namespace {
 
-class FaultyDisk : public Faults {};
+using FaultyDisk = Faults;
 
 const Words kKinds = {"a.exr", "a.png", "stats.json", "checkpoint", "cache"};
 
@@ -141,6 +141,87 @@ TEST_F(FaultyDisk, AnUnwritableStderrIsIgnoredAndAnUnwritableStdoutIsCode3) {
                                  [&] { ::dup2(open(), STDOUT_FILENO); }),
                    3, {"stdout"});
   }
+}
+
+class Libraries : public Faults {
+ protected:
+  /// Runs a copy of the program without the files beside it.
+  Output run_alone(Words arguments) const {
+    const std::string copy = path("bin/gatelight");
+    std::filesystem::create_directory(folder / "bin");
+    std::filesystem::copy_file(GATELIGHT_PROGRAM, copy, std::filesystem::copy_options::overwrite_existing);
+    arguments.insert(arguments.begin(), copy);
+    std::vector<char*> words;
+    for (std::string& argument : arguments) words.push_back(argument.data());
+    words.push_back(nullptr);
+    return run_gatelight({}, [&] { ::execv(copy.c_str(), words.data()); });
+  }
+};
+
+TEST_F(Libraries, MissingLibrariesAreReportedBeforeWorkThatRequiresThem) {
+  const std::string hdr = folder.write("sky.hdr", "not even a picture");
+  const std::string sky_png = path("sky.png");  // must be scaled
+  renderer::Picture pixel{
+      .width = 1, .height = 1, .layers = {{.channels = {"R", "G", "B"}, .values = {0, 0, 0}}}};
+  renderer::write_image(pixel, sky_png);
+  for (const Words& arguments :
+       {std::vector<std::string>{"render", scene, "--environment", hdr, "-o", path("a.exr")},
+        {"render", scene, "-o", path("a.tif")},
+        {"render", scene, "-o", "hdr:-"},
+        {"render", scene, "--background", sky_png, "-o", path("a.exr")},
+        {"compare", hdr, hdr}}) {
+    expect_failure(run_alone(arguments), 5,
+                   {"cannot load OpenImageIO", "gatelight_openimageio.so", "gatelight-openimageio"});
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder / "a.exr"));
+  // Renders that do not need the library work.
+  const std::string picture = path("a.png");
+  expect_done(run_alone(square("-o {} --spp 1 --size 16x16 --quiet", {picture})));
+  EXPECT_TRUE(std::filesystem::exists(picture));
+}
+
+class Stopped : public Faults {
+ protected:
+  Words learning(const std::string& output, const Words& more) const {
+    return square(
+        "-o {} --size 48x48 --spp 4 --integrator nrc --train-steps 3000 --batch 1024 --progress json "
+        "--reproducible",
+        {path(output)}, more);
+  }
+};
+
+TEST_F(Stopped, TerminationDuringTrainingKeepsPictureAndCheckpoint) {
+  const Words keeps = words_of("--checkpoint {} --resume --cache-out {}", {path("c"), path("c.safetensors")});
+  Process process(learning("killed.exr", keeps));
+  ASSERT_TRUE(process.wait_for_error_text("\"train\""));
+  process.send(SIGTERM);
+  const Output output = process.finish();
+  EXPECT_EQ(output.exit_code, 143) << output.err;
+  EXPECT_FALSE(output.killed);
+  expect_message(output.last_error_line(), {"3000", "killed.exr", "--resume", path("c.safetensors")});
+  EXPECT_EQ(renderer::read_image(path("killed.exr")).width, 48);
+  EXPECT_EQ(folder.count_files(), 3u) << "a temporary file is left, or part of a cache";
+  expect_done(run_gatelight(learning("killed.exr", keeps)));
+  expect_done(run_gatelight(learning("straight.exr", {})));
+  EXPECT_TRUE(read_file(path("killed.exr")) == read_file(path("straight.exr")));
+}
+
+TEST_F(Stopped, ResumingWithAnotherSceneIsRefused) {
+  const std::string now = tiny_scene();
+  const auto changed = [&](const std::string& from, const std::string& to) {
+    std::string text = now;
+    text.replace(text.find(from), from.size(), to);
+    folder.write("scene.gltf", text);
+    return run_gatelight(
+        square("-o {} --size 16x16 --spp 2 --quiet --checkpoint {} --resume", {path("a.exr"), path("c")}));
+  };
+  expect_done(changed("\"asset\"", "\"asset\""));
+  const std::string kept = read_file(path("c"));
+  expect_failure(changed("AACAvwAAgL8", "AACAPwAAgL8"), 2, {"geometry"});
+  expect_failure(changed("\"metallicFactor\": 0", "\"metallicFactor\": 1"), 2, {"materials"});
+  expect_failure(changed("\"yfov\": 0.9", "\"yfov\": 0.8"), 2, {"camera"});
+  EXPECT_TRUE(read_file(path("c")) == kept);
+  expect_done(changed("\"asset\"", "\"asset\""));
 }
 
 }  // namespace
