@@ -173,7 +173,7 @@ struct Damage {
   const char* names;
 };
 
-GltfBuilder whole_file() {
+GltfBuilder undamaged_file() {
   GltfBuilder file;
   const int position = file.positions({0, 0, 0, 1, 0, 0, 0, 1, 0});
   const json sparse =
@@ -252,10 +252,10 @@ const Damage kDamages[] = {
     {"/nodes", 5, "nodes"}};
 
 TEST(DamagedFile, IsRefusedInOneLine) {
-  EXPECT_EQ(whole_file().refused(), "");
+  EXPECT_EQ(undamaged_file().refused(), "");
   for (const Damage& damage : kDamages) {
     SCOPED_TRACE(::testing::Message() << damage.pointer << " = " << damage.value);
-    GltfBuilder file = whole_file();
+    GltfBuilder file = undamaged_file();
     file.root[json::json_pointer(damage.pointer)] = damage.value;
     file.expect_refused({damage.names});
   }

@@ -113,7 +113,7 @@ Flaw edited(const char* name, const std::string& pointer, const json& value, con
   return {name, make, message, warning};
 }
 
-const Flaw kFlaws[] = {
+const Flaw kBrokenAnimations[] = {
     moved("FallingTimes", {0, 2, 1}, Floats(9), {"accessors", "2", "1"}),
     moved("NanTimes", {0, kNan}, Floats(6), {"accessors", "nan", "finite"}),
     moved("InfiniteTimes", {0, INFINITY}, Floats(6), {"accessors", "inf", "finite"}),
@@ -168,7 +168,7 @@ const Flaw kFlaws[] = {
 
 /// The first animation is sound, the second one has the flaw.
 TEST(BrokenAnimation, MattersOnlyWhereItIsChosen) {
-  for (const Flaw& flaw : kFlaws) {
+  for (const Flaw& flaw : kBrokenAnimations) {
     SCOPED_TRACE(flaw.name);
     AnimatedFile file = moving_triangle();
     file.animation("sound");

@@ -202,21 +202,6 @@ TEST(Png, ByteStepsAreExactWhereTheFormulaIsFarFromOneHalf) {
   }
 }
 
-TEST(Hdr, RadiancePictureIsReadAsLinearRgb) {
-  const TemporaryFolder folder;
-  // Two pixels, flat: RGBE (128, 64, 32, 129) is (1, 0.5, 0.25) up to the half step that readers may add.
-  const std::string header = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\n";
-  const std::string pixels = "\x80\x40\x20\x81\x80\x40\x20\x83";
-  folder.write("a.hdr", header + pixels);
-  const Picture read = read_image(folder / "a.hdr");
-  ASSERT_EQ(read.width, 2);
-  const std::vector<float>& v = read.layers[0].values;
-  EXPECT_NEAR(v[0], 1.0f, 0.01f);
-  EXPECT_NEAR(v[1], 0.5f, 0.01f);
-  EXPECT_NEAR(v[2], 0.25f, 0.01f);
-  EXPECT_NEAR(v[3], 4.0f, 0.04f);
-}
-
 TEST(Formats, UnknownExtensionNamesFileAndSupportedOnes) {
   expect_refusal<UnknownFormat>([] { write_image(sample_picture(), "x.gif"); },
                                 {"x.gif", ".exr", ".png", ".jpg", ".tif", ".hdr"});

@@ -12,11 +12,25 @@
 #include "renderer/light/sun_disc.h"
 #include "tests/support/light_scenes.h"
 #include "tests/support/messages.h"
-#include "tests/support/sphere_integral.h"
 #include "tests/support/statistics.h"
 
 namespace gatelight::renderer {
 namespace {
+
+/// Calls use(direction, solid angle) for the middles of cells of equal steps in both angles about +y.
+template <class Use>
+void each_direction(int rows, const Use& use) {
+  const double step = M_PI / rows;
+  for (int y = 0; y < rows; ++y) {
+    const double theta = (y + 0.5) * step;
+    for (int x = 0; x < 2 * rows; ++x) {
+      const double phi = (x + 0.5) * step;
+      use(Vec3(static_cast<float>(std::sin(theta) * std::cos(phi)), static_cast<float>(std::cos(theta)),
+               static_cast<float>(std::sin(theta) * std::sin(phi))),
+          std::sin(theta) * step * step);
+    }
+  }
+}
 
 SkyOptions sky(float elevation, float turbidity = 3.0f, float azimuth = 0.0f) {
   return {.turbidity = turbidity, .sun_azimuth_degrees = azimuth, .sun_elevation_degrees = elevation};
@@ -131,7 +145,7 @@ Color integrate(const Environment& environment, const SkyOptions& options, const
   plain.sky = without;
   const Environment picture(plain);
   Eigen::Array3d sum = Eigen::Array3d::Zero();
-  testing::each_direction(1024, [&](const Vec3& d, double solid_angle) {
+  each_direction(1024, [&](const Vec3& d, double solid_angle) {
     const double cosine = static_cast<double>(std::max(0.0f, n.dot(d)));
     sum += picture.radiance(d).cast<double>() * (solid_angle * cosine);
   });
@@ -184,7 +198,7 @@ TEST(ClearSky, ADensityIsThatOfItsSamplesAndIntegratesToOne) {
     }
     EXPECT_LT(others, 10);
     double sum = 0.0;
-    testing::each_direction(1024, [&](const Vec3& d, double solid_angle) {
+    each_direction(1024, [&](const Vec3& d, double solid_angle) {
       sum += static_cast<double>(environment.pdf(d, n)) * solid_angle;
     });
     EXPECT_NEAR(sum, 1.0, 2e-3) << n.transpose();
@@ -233,7 +247,7 @@ TEST(SoftSky, MakesWhiteSurfacesNeitherDarkNorOverexposed) {
   const Environment twice(options);
   for (const Vec3& n : {Vec3(0, 1, 0), Vec3(0, 0, 1), Vec3(-1, 0, 0), Vec3(1, 0, 0)}) {
     Color reflected = Color::Zero();
-    testing::each_direction(64, [&](const Vec3& d, double solid_angle) {
+    each_direction(64, [&](const Vec3& d, double solid_angle) {
       const float share = static_cast<float>(solid_angle) / kPi;
       reflected += sky.radiance(d) * (std::max(0.0f, n.dot(d)) * share);
       EXPECT_TRUE(twice.radiance(d).isApprox(2.0f * sky.radiance(d), 1e-5f));

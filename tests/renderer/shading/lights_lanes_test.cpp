@@ -182,6 +182,7 @@ TEST(LightLanes, ProfilesAreThoseOfTheScalarCode) {
 TEST(LightLanes, SkiesAreSampledAsInTheScalarCode) {
   EnvironmentOptions constant;
   constant.constant = Color(1, 2, 3);
+  expect_agreement(compare(LitScene{scene::Scene()}, 15));  // no light at all
   expect_agreement(compare(LitScene({}, LightSelection::tree, constant), 10));
   Random random(11);
   expect_agreement(compare(LitScene(lamps(3, random), LightSelection::tree, constant), 12));
@@ -197,20 +198,6 @@ TEST(LightLanes, SkiesAreSampledAsInTheScalarCode) {
     clear.sky = SkyOptions{.sun_size_degrees = size};
     expect_agreement(compare(LitScene({}, LightSelection::tree, clear), 19));
     expect_agreement(compare(LitScene(lamps(3, random), LightSelection::tree, clear), 20));
-  }
-}
-
-TEST(LightLanes, WithoutLightThereIsNoSample) {
-  const LitScene dark{scene::Scene()};
-  const LightArrays arrays(dark.lights);
-  Random random(15);
-  SurfaceBlock surfaces = {};
-  ShadingBlock& block = surfaces.points;
-  for (int lane = 0; lane < ShadingBlock::kWidth; ++lane) put(block, random_point(random));
-  const Shading shading = make_shading(dark.lights, arrays);
-  shading.scatter(surfaces);
-  for (int lane = 0; lane < block.count; ++lane) {
-    for (int c = 0; c < 3; ++c) EXPECT_EQ(block.direct[c][lane], 0.0f);
   }
 }
 

@@ -68,51 +68,51 @@ TEST(Accel, RaysPassCulledBackFaces) {
 }
 
 /// From a metre scene of millimetres to one of a thousand kilometres, and far from the origin.
-class AccelScale : public ::testing::TestWithParam<std::pair<float, float>> {};
-
-TEST_P(AccelScale, RaysLeaveTheirSurfaceAndCannotLeaveAClosedRoom) {
-  const auto [scale, shift] = GetParam();
-  const Vec3 offset = Vec3(1.0f, -0.6f, 0.3f) * shift;
-  SceneBuilder builder;
-  const int m = builder.material(SceneBuilder::lambert(Color::Ones()));
-  builder.box(m, Vec3(-1, -1, -1) * scale + offset, Vec3(1, 1, 1) * scale + offset, true);
-  builder.sphere(m, Vec3(0.2f, -0.3f, 0.1f) * scale + offset, 0.4f * scale, 32, false);
-  const Tracer tracer(builder.scene());
-  int self_hits = 0;
-  int escapes = 0;
-  constexpr int kWalks = 2000;
-  for (std::uint32_t i = 0; i < kWalks; ++i) {
-    Vec3 origin = Vec3(0.7f, 0.6f, 0.7f) * scale + offset;
-    Vec3 direction = random_direction(i);
-    for (std::uint32_t bounce = 0; bounce < 6; ++bounce) {
-      const Hit hit = tracer.hit(origin, direction);
-      if (!hit) {
-        ++escapes;
-        break;
+TEST(Accel, RaysLeaveTheirSurfaceAndCannotLeaveAClosedRoom) {
+  for (const auto& [scale, shift] : {std::pair{1e-3f, 0.0f},
+                                     {1.0f, 0.0f},
+                                     {1e3f, 0.0f},
+                                     {1e6f, 0.0f},
+                                     {1.0f, 100.0f},
+                                     {1.0f, 1000.0f},
+                                     {1e-3f, 1.0f}}) {
+    SCOPED_TRACE(::testing::Message() << scale << " " << shift);
+    const Vec3 offset = Vec3(1.0f, -0.6f, 0.3f) * shift;
+    SceneBuilder builder;
+    const int m = builder.material(SceneBuilder::lambert(Color::Ones()));
+    builder.box(m, Vec3(-1, -1, -1) * scale + offset, Vec3(1, 1, 1) * scale + offset, true);
+    builder.sphere(m, Vec3(0.2f, -0.3f, 0.1f) * scale + offset, 0.4f * scale, 32, false);
+    const Tracer tracer(builder.scene());
+    int self_hits = 0;
+    int escapes = 0;
+    constexpr int kWalks = 2000;
+    for (std::uint32_t i = 0; i < kWalks; ++i) {
+      Vec3 origin = Vec3(0.7f, 0.6f, 0.7f) * scale + offset;
+      Vec3 direction = random_direction(i);
+      for (std::uint32_t bounce = 0; bounce < 6; ++bounce) {
+        const Hit hit = tracer.hit(origin, direction);
+        if (!hit) {
+          ++escapes;
+          break;
+        }
+        // Every surface is more than this far from any other along a ray that leaves it, but for grazing rays
+        // in corners.
+        const Surface s = tracer.surfaces.at(hit, direction, 0.0f, 0.0f);
+        ASSERT_TRUE(s.front);
+        const Vec3 next = Basis(s.geometric_normal)
+                              .to_world(sample_cosine_hemisphere(
+                                  Sampler(SamplerKind::independent, 2, i, bounce, 0).get_2d(3)));
+        const Vec3 start = s.spawn(next);
+        const Hit again = tracer.hit(start, next);
+        if (again && again.instance == hit.instance && again.primitive == hit.primitive) ++self_hits;
+        origin = start;
+        direction = next;
       }
-      // Every surface is more than this far from any other along a ray that leaves it, but for grazing rays
-      // in corners.
-      const Surface s = tracer.surfaces.at(hit, direction, 0.0f, 0.0f);
-      ASSERT_TRUE(s.front);
-      const Vec3 next = Basis(s.geometric_normal)
-                            .to_world(sample_cosine_hemisphere(
-                                Sampler(SamplerKind::independent, 2, i, bounce, 0).get_2d(3)));
-      const Vec3 start = s.spawn(next);
-      const Hit again = tracer.hit(start, next);
-      if (again && again.instance == hit.instance && again.primitive == hit.primitive) ++self_hits;
-      origin = start;
-      direction = next;
     }
+    EXPECT_EQ(self_hits, 0);
+    EXPECT_EQ(escapes, 0);
   }
-  EXPECT_EQ(self_hits, 0);
-  EXPECT_EQ(escapes, 0);
 }
-
-INSTANTIATE_TEST_SUITE_P(Scales, AccelScale,
-                         ::testing::Values(std::pair{1e-3f, 0.0f}, std::pair{1.0f, 0.0f},
-                                           std::pair{1e3f, 0.0f}, std::pair{1e6f, 0.0f},
-                                           std::pair{1.0f, 100.0f}, std::pair{1.0f, 1000.0f},
-                                           std::pair{1e-3f, 1.0f}));
 
 TEST(Accel, OnlyAWatertightSceneStopsRaysTowardsItsEdges) {
   SceneBuilder builder;
@@ -137,16 +137,6 @@ TEST(Accel, OnlyAWatertightSceneStopsRaysTowardsItsEdges) {
   };
   EXPECT_EQ(leaks(true), 0);
   EXPECT_GT(leaks(false), 0);
-}
-
-TEST(Accel, OffsetIsSmallBesideTheTriangle) {
-  SceneBuilder builder;
-  builder.quad(builder.material(SceneBuilder::lambert(Color::Ones())), Vec3(0, 0, 0), Vec3(1, 0, 0),
-               Vec3(0, 1, 0));
-  const Tracer tracer(builder.scene());
-  const Surface s = tracer.surfaces.at(tracer.hit(Vec3(0.3f, 0.3f, 1), Vec3(0, 0, -1)), Vec3(0, 0, -1), 0, 0);
-  EXPECT_GT(s.offset, 0.0f);
-  EXPECT_LT(s.offset, 1e-5f);
 }
 
 TEST(Accel, InstancesReportTheirIndexAndWorldGeometry) {

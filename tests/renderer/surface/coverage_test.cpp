@@ -19,11 +19,7 @@ Color through(const scene::Scene& scene) {
   const Textures textures(scene);
   const Media media;
   const Coverage coverage(scene, textures, media);
-  Hit hit;
-  hit.instance = 0;
-  hit.primitive = 0;
-  hit.u = 0.25f;
-  hit.v = 0.25f;
+  const Hit hit{.u = 0.25f, .v = 0.25f, .instance = 0};
   EXPECT_TRUE(coverage.filters_shadows(0));
   return coverage.pass(hit, Vec3(0, 0, -1)).transmittance;
 }
@@ -112,11 +108,7 @@ TEST(Panes, HaveTheSameTransmittanceForLightSamplesAndForPaths) {
   const scene::Scene scene = pane_of(pane);
   const Textures textures(scene);
   const Media media;
-  Hit hit;
-  hit.instance = 0;
-  hit.primitive = 0;
-  hit.u = 0.25f;
-  hit.v = 0.25f;
+  const Hit hit{.u = 0.25f, .v = 0.25f, .instance = 0};
   for (const Vec3& direction : {Vec3(0, 0, -1), Vec3(0.6f, 0, -0.8f), Vec3(0.6f, 0, 0.8f)}) {
     const Surface s = Surfaces(scene, textures).at(hit, direction, 0.0f, 0.0f);
     const Bsdf bsdf(s.material, s.geometric_normal, s.shading_normal, s.coat_normal, -direction, s.front);

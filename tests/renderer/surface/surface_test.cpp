@@ -45,11 +45,7 @@ struct Normals {
 Normals seen(const scene::Scene& scene, const Vec3& towards) {
   const Textures textures(scene);
   const Surfaces surfaces(scene, textures);
-  Hit hit;
-  hit.instance = 0;
-  hit.primitive = 0;
-  hit.u = 0.25f;
-  hit.v = 0.25f;
+  const Hit hit{.u = 0.25f, .v = 0.25f, .instance = 0};
   const Surface surface = surfaces.at(hit, -towards, 0.0f, 0.0f);
   return {surface.shading_normal, surface.coat_normal};
 }
@@ -139,75 +135,65 @@ scene::Scene painted(const scene::Material& material) {
 
 Surface front_of(const scene::Scene& scene) {
   const Textures textures(scene);
-  Hit hit;
-  hit.instance = 0;
-  hit.primitive = 0;
-  hit.u = 0.25f;
-  hit.v = 0.25f;
+  const Hit hit{.u = 0.25f, .v = 0.25f, .instance = 0};
   return Surfaces(scene, textures).at(hit, Vec3(0, 0, -1), 0.0f, 0.0f);
 }
 
-/// A material in which every factor is set, most to different values.
-scene::Material rich_material() {
-  scene::Material m;
-  m.base_color = Color(0.9f, 0.8f, 0.7f);
-  m.metallic = 0.65f;
-  m.roughness = 0.6f;
+/// A member that a surface takes from its material, times a channel of a texture or its colour.
+template <class Value>
+struct Part {
+  Value scene::Material::*factor;
+  Value SurfaceMaterial::*seen;
+  scene::TextureSlot scene::Material::*texture;
+  int channel = 0;
+};
+using scene::Material;
+const Part<float> kNumbers[] = {
+    {&Material::metallic, &SurfaceMaterial::metallic, &Material::metallic_roughness_texture, 2},
+    {&Material::roughness, &SurfaceMaterial::roughness, &Material::metallic_roughness_texture, 1},
+    {&Material::specular, &SurfaceMaterial::specular, &Material::specular_texture, 3},
+    {&Material::transmission, &SurfaceMaterial::transmission, &Material::transmission_texture, 0},
+    {&Material::clearcoat, &SurfaceMaterial::clearcoat, &Material::clearcoat_texture, 0},
+    {&Material::clearcoat_roughness, &SurfaceMaterial::clearcoat_roughness,
+     &Material::clearcoat_roughness_texture, 1},
+    {&Material::sheen_roughness, &SurfaceMaterial::sheen_roughness, &Material::sheen_roughness_texture, 3},
+    {&Material::diffuse_transmission, &SurfaceMaterial::diffuse_transmission,
+     &Material::diffuse_transmission_texture, 3}};
+const Part<Color> kColors[] = {
+    {&Material::base_color, &SurfaceMaterial::base_color, &Material::base_color_texture},
+    {&Material::specular_color, &SurfaceMaterial::specular_color, &Material::specular_color_texture},
+    {&Material::sheen_color, &SurfaceMaterial::sheen_color, &Material::sheen_color_texture},
+    {&Material::diffuse_transmission_color, &SurfaceMaterial::diffuse_transmission_color,
+     &Material::diffuse_transmission_color_texture}};
+
+/// A material in which every factor has a value of its own.
+Material rich_material() {
+  Material m;
   m.emission = Color(3.0f, 2.0f, 1.0f);
   m.ior = 1.7f;
-  m.specular = 0.55f;
-  m.specular_color = Color(0.5f, 0.45f, 0.4f);
-  m.transmission = 0.35f;
-  m.clearcoat = 0.95f;
-  m.clearcoat_roughness = 0.3f;
-  m.sheen_color = Color(0.25f, 0.2f, 0.15f);
-  m.sheen_roughness = 0.85f;
-  m.diffuse_transmission = 0.35f;
-  m.diffuse_transmission_color = Color(0.9f, 0.4f, 0.3f);
+  float value = 0.95f;
+  for (const auto& part : kNumbers) m.*part.factor = value -= 0.08f;
+  for (const auto& part : kColors) m.*part.factor = (value -= 0.02f) * Color(1.0f, 0.8f, 0.6f);
   return m;
 }
 
-/// The factors of the textures for the members that a surface takes from such a material.
-struct Factors {
-  Color base_color = Color::Ones();
-  float metallic = 1.0f;
-  float roughness = 1.0f;
-  Color emission = Color::Ones();
-  float specular = 1.0f;
-  Color specular_color = Color::Ones();
-  float transmission = 1.0f;
-  float clearcoat = 1.0f;
-  float clearcoat_roughness = 1.0f;
-  Color sheen_color = Color::Ones();
-  float sheen_roughness = 1.0f;
-  float diffuse_transmission = 1.0f;
-  Color diffuse_transmission_color = Color::Ones();
-};
-
-void expect_product(const Surface& s, const scene::Material& m, const Factors& f) {
-  const SurfaceMaterial& seen = s.material;
+/// Expects the factors of the material times a texel of all its textures, none for white ones.
+void expect_product(const Surface& s, const Material& m, const std::uint8_t* texel = nullptr) {
+  const auto linear = [&](int channel) { return texel ? static_cast<float>(texel[channel]) / 255.0f : 1.0f; };
+  const Color color(srgb_to_linear(linear(0)), srgb_to_linear(linear(1)), srgb_to_linear(linear(2)));
   const auto same = [](const Color& a, const Color& b) { return (a - b).abs().maxCoeff() < 1e-5f; };
-  EXPECT_TRUE(same(seen.base_color, m.base_color * f.base_color)) << seen.base_color.transpose();
-  EXPECT_NEAR(seen.metallic, m.metallic * f.metallic, 1e-5f);
-  EXPECT_NEAR(seen.roughness, m.roughness * f.roughness, 1e-5f);
-  EXPECT_TRUE(same(s.emission, m.emission * f.emission)) << s.emission.transpose();
-  EXPECT_EQ(seen.ior, m.ior);
-  EXPECT_NEAR(seen.specular, m.specular * f.specular, 1e-5f);
-  EXPECT_TRUE(same(seen.specular_color, m.specular_color * f.specular_color));
-  EXPECT_NEAR(seen.transmission, m.transmission * f.transmission, 1e-5f);
-  EXPECT_NEAR(seen.clearcoat, m.clearcoat * f.clearcoat, 1e-5f);
-  EXPECT_NEAR(seen.clearcoat_roughness, m.clearcoat_roughness * f.clearcoat_roughness, 1e-5f);
-  EXPECT_TRUE(same(seen.sheen_color, m.sheen_color * f.sheen_color));
-  EXPECT_NEAR(seen.sheen_roughness, m.sheen_roughness * f.sheen_roughness, 1e-5f);
-  EXPECT_NEAR(seen.diffuse_transmission, m.diffuse_transmission * f.diffuse_transmission, 1e-5f);
-  EXPECT_TRUE(
-      same(seen.diffuse_transmission_color, m.diffuse_transmission_color * f.diffuse_transmission_color));
+  for (const auto& part : kNumbers)
+    EXPECT_NEAR(s.material.*part.seen, m.*part.factor * linear(part.channel), 1e-5f) << &part - kNumbers;
+  for (const auto& part : kColors)
+    EXPECT_TRUE(same(s.material.*part.seen, m.*part.factor * color)) << &part - kColors;
+  EXPECT_TRUE(same(s.emission, m.emission * color)) << s.emission.transpose();
+  EXPECT_EQ(s.material.ior, m.ior);
 }
 
 TEST(Surfaces, HaveTheFactorsOfTheirMaterial) {
-  scene::Material m = rich_material();
+  Material m = rich_material();
   const Surface thin = front_of(painted(m));
-  expect_product(thin, m, {});
+  expect_product(thin, m);
   EXPECT_TRUE(thin.material.thin_walled);
   EXPECT_FALSE(thin.unlit);
   m.thickness = 0.1f;
@@ -215,7 +201,7 @@ TEST(Surfaces, HaveTheFactorsOfTheirMaterial) {
 }
 
 TEST(Surfaces, GlossinessIsTheAlphaOfItsTexture) {
-  scene::Material m = rich_material();
+  Material m = rich_material();
   m.roughness = 0.25f;
   m.glossiness_texture.texture = 0;
   const scene::Scene scene = painted(m);
@@ -225,33 +211,16 @@ TEST(Surfaces, GlossinessIsTheAlphaOfItsTexture) {
 
 TEST(Surfaces, TexturesMultiplyTheFactorsEachByItsChannels) {
   for (const int set : {0, 1}) {
-    scene::Material m = rich_material();
-    for (scene::TextureSlot* slot :
-         {&m.base_color_texture, &m.metallic_roughness_texture, &m.emission_texture, &m.specular_texture,
-          &m.specular_color_texture, &m.transmission_texture, &m.clearcoat_texture,
-          &m.clearcoat_roughness_texture, &m.sheen_color_texture, &m.sheen_roughness_texture,
-          &m.diffuse_transmission_texture, &m.diffuse_transmission_color_texture}) {
-      slot->texture = 0;
-      slot->texcoord = set;
-    }
+    Material m = rich_material();
+    const auto set_texture = [&](const auto& part) {
+      (m.*part.texture).texture = 0;
+      (m.*part.texture).texcoord = set;
+    };
+    for (const auto& part : kNumbers) set_texture(part);
+    for (const auto& part : kColors) set_texture(part);
+    m.emission_texture = m.base_color_texture;
     const scene::Scene scene = painted(m);
-    const std::uint8_t* const texel = &scene.images[0].pixels[set == 0 ? 0 : 4];
-    const auto linear = [&](int channel) { return static_cast<float>(texel[channel]) / 255.0f; };
-    const Color color(srgb_to_linear(linear(0)), srgb_to_linear(linear(1)), srgb_to_linear(linear(2)));
-    expect_product(front_of(scene), m,
-                   {.base_color = color,
-                    .metallic = linear(2),
-                    .roughness = linear(1),
-                    .emission = color,
-                    .specular = linear(3),
-                    .specular_color = color,
-                    .transmission = linear(0),
-                    .clearcoat = linear(0),
-                    .clearcoat_roughness = linear(1),
-                    .sheen_color = color,
-                    .sheen_roughness = linear(3),
-                    .diffuse_transmission = linear(3),
-                    .diffuse_transmission_color = color});
+    expect_product(front_of(scene), m, &scene.images[0].pixels[set == 0 ? 0 : 4]);
   }
 }
 
@@ -283,14 +252,15 @@ TEST(Surfaces, AnisotropicOnesAreRoughAlongTheirTangentTurnedByAngleAndTexture) 
 }
 
 TEST(Surfaces, VertexColoursMultiplyTheBaseColour) {
-  const scene::Material m = rich_material();
+  Material m = rich_material();
   scene::Scene scene = painted(m);
   scene.meshes[0].colors = {{1, 0, 0, 1}, {0, 1, 0, 1}, {0, 0, 1, 1}, {9, 9, 9, 1}};
-  expect_product(front_of(scene), m, {.base_color = Color(0.5f, 0.25f, 0.25f)});
+  m.base_color *= Color(0.5f, 0.25f, 0.25f);
+  expect_product(front_of(scene), m);
 }
 
 TEST(Surfaces, UnlitOnesEmitOnlyTheirBaseColour) {
-  scene::Material m = rich_material();
+  Material m = rich_material();
   m.unlit = true;
   const Surface s = front_of(painted(m));
   EXPECT_TRUE(s.unlit);
