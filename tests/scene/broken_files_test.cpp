@@ -1,11 +1,13 @@
-// Any file loads, or is refused with InputError in one line.
+// Any file loads, or is refused with InputError in one line. Large scenes have their known contents.
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cstdlib>
 #include <random>
 
+#include "scene/gltf.h"
 #include "tests/support/gltf_parts.h"
 #include "tests/support/scene_fault.h"
 #include "tests/support/small_pngs.h"
@@ -146,6 +148,44 @@ TEST_F(Mutation, ChangedJsonValuesAreLoadedOrRefused) {
   }
   EXPECT_GT(loaded_, 100);
   EXPECT_GT(refused_, 1000);
+}
+
+struct Known {
+  const char* file;
+  std::size_t triangles;  ///< each instance counted
+  Vec3 low;
+  Vec3 high;
+  std::size_t images;
+};
+
+TEST(RealScenes, HaveTheirKnownTrianglesAndBounds) {
+  const char* scenes = std::getenv("GATELIGHT_SCENES");
+  if (!scenes) GTEST_SKIP() << "GATELIGHT_SCENES is not set";
+  for (const auto& [file, triangles, low, high, images] :
+       {Known{"cornell/cornell-area.glb", 36, {-1, 0, -1}, {1, 2, 1}, 0},
+        Known{"sponza/sponza.glb", 262267, {-12.0f, -0.8f, -7.4f}, {11.2f, 8.9f, 6.9f}, 33},
+        Known{"country-kitchen/country-kitchen.glb", 1050941, {-3.1f, 0, -3.2f}, {3.8f, 3.4f, 5.5f}, 11},
+        Known{"salle-de-bain/salle-de-bain.glb", 449049, {-1.7f, 0, -2.3f}, {1.7f, 3.4f, 2.3f}, 1},
+        Known{"bistro-exterior/bistro-exterior.glb",
+              1308885,
+              {-57.9f, -1.2f, -84.6f},
+              {25.1f, 26.5f, 36.0f},
+              66}}) {
+    SCOPED_TRACE(file);
+    const Scene scene = load_gltf(std::filesystem::path(scenes) / file);
+    EXPECT_THAT(scene.warnings, ::testing::IsEmpty());
+    EXPECT_EQ(count_triangles(scene), triangles);
+    EXPECT_LT((scene.bounds.min() - low).cwiseAbs().maxCoeff(), 0.06f) << scene.bounds.min().transpose();
+    EXPECT_LT((scene.bounds.max() - high).cwiseAbs().maxCoeff(), 0.06f) << scene.bounds.max().transpose();
+    EXPECT_EQ(scene.images.size(), images);
+    EXPECT_FALSE(scene.cameras.empty());
+    EXPECT_LT(geometry_bytes(scene), triangles * 64) << "bytes a triangle";
+    for (const Instance& instance : scene.instances) {
+      const Mesh& mesh = scene.mesh_of(instance);
+      EXPECT_EQ(mesh.normals.size(), mesh.positions.size());
+      EXPECT_EQ(mesh.tangents.empty(), !scene.material_of(instance).normal_texture);
+    }
+  }
 }
 
 }  // namespace

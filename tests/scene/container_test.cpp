@@ -5,21 +5,22 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/gltf_parts.h"
+#include "tests/support/small_pngs.h"
 
 namespace gatelight::scene {
 namespace {
 
 using tests::expect_messages;
 
-void expect_refused_bytes(const std::vector<std::uint8_t>& bytes, const tests::NameList& names,
-                          const char* name = "test.glb") {
+void expect_refused_bytes(const std::vector<std::uint8_t>& bytes, const tests::NameList& names) {
   const TemporaryFolder folder;
-  write_bytes(folder.path() / name, bytes);
-  expect_refused(folder.path() / name, names);
+  write_bytes(folder.path() / "test.glb", bytes);
+  expect_refused(folder.path() / "test.glb", names);
 }
 
-std::vector<std::uint8_t> text_bytes(const std::string& text) {
-  return {text.begin(), text.end()};
+void expect_refused_text(const std::string& text, const tests::NameList& names = {}) {
+  const TemporaryFolder folder;
+  expect_refused(folder.write("test.gltf", text), names);
 }
 
 std::string base64(const std::vector<std::uint8_t>& bytes) {
@@ -40,12 +41,12 @@ TEST(Container, JsonWithADataUriEqualsTheBinary) {
   json root = file.root;
   root["buffers"] = {
       {{"byteLength", file.bin.size()}, {"uri", "data:application/octet-stream;base64," + base64(file.bin)}}};
-  write_bytes(folder.path() / "a.gltf", text_bytes(root.dump(2)));
+  folder.write("a.gltf", root.dump(2));
   root["buffers"][0]["uri"] = "data%20file.bin";
-  write_bytes(folder.path() / "b.gltf", text_bytes(root.dump()));
+  folder.write("b.gltf", root.dump());
   write_bytes(folder.path() / "data file.bin", file.bin);
   root["buffers"][0]["uri"] = "DATA:;Base64," + base64(file.bin);
-  write_bytes(folder.path() / "c.gltf", text_bytes(root.dump()));
+  folder.write("c.gltf", root.dump());
   for (const char* name : {"a.gltf", "b.gltf", "c.gltf"}) {
     EXPECT_EQ(only_mesh(load_gltf(folder.path() / name)).positions, binary.positions) << name;
   }
@@ -105,13 +106,13 @@ TEST(Container, TextThatIsNotGltfIsRefusedInOneLine) {
   for (const char* text :
        {"{", "[]", "null", "{}", "{\"asset\":{}}", "\xff\xfe{}", "{\"asset\":{\"version\":\"2.0\"},}",
         "{\n\"asset\":\n1e999}", "{\"asset\":{\"version\":\"2.0\\n3\"}}"}) {
-    expect_refused_bytes(text_bytes(text), {}, "test.gltf");
+    expect_refused_text(text);
   }
 }
 
 TEST(Container, DeepNestingIsRefused) {
   const std::string deep = "{\"asset\":{\"version\":\"2.0\"},\"extras\":" + std::string(1000000, '[');
-  expect_refused_bytes(text_bytes(deep), {"100"}, "test.gltf");
+  expect_refused_text(deep, {"100"});
 }
 
 TEST(Container, NumbersMayBeWrittenWithAFraction) {
@@ -157,28 +158,91 @@ TEST(Buffers, EndAtTheirByteLengthInALargerFile) {
   const TemporaryFolder folder;
   file.bin.push_back(0);
   write_bytes(folder.path() / "data.bin", file.bin);
-  write_bytes(folder.path() / "test.gltf", text_bytes(file.root.dump()));
+  folder.write("test.gltf", file.root.dump());
   EXPECT_EQ(refusal(folder.path() / "test.gltf"), "");
   json& last = file.root["bufferViews"].back();
   last["byteLength"] = last["byteLength"].get<int>() + 1;
-  write_bytes(folder.path() / "test.gltf", text_bytes(file.root.dump()));
+  folder.write("test.gltf", file.root.dump());
   expect_refused(folder.path() / "test.gltf", {"bufferViews[1]"});
   last["byteLength"] = 24;
   const std::size_t held = file.bin.size();
   file.root["bufferViews"][0]["extensions"]["EXT_meshopt_compression"] = {
       {"buffer", 0}, {"byteLength", held}, {"byteStride", 4}, {"count", 6}, {"mode", "ATTRIBUTES"}};
   file.root["extensionsUsed"] = {"EXT_meshopt_compression"};
-  write_bytes(folder.path() / "test.gltf", text_bytes(file.root.dump()));
+  folder.write("test.gltf", file.root.dump());
   expect_refused(folder.path() / "test.gltf",
                  {fmt::format("{} bytes at 0", held), fmt::format("at most {}", held - 1)});
+}
+
+/// The folder of a scene within another one.
+struct SceneFolder {
+  TemporaryFolder outer;
+  std::filesystem::path inner = outer.path() / "scene";
+
+  explicit SceneFolder(const char* picture_outside) {
+    std::filesystem::create_directory(inner);
+    write_bytes(outer.path() / picture_outside, kGrey);
+  }
+  /// The path of a scene in the inner folder, or in `folder`.
+  std::filesystem::path with(const std::string& uri, std::filesystem::path folder = {}) const {
+    if (folder.empty()) folder = inner;
+    write_bytes(folder / "test.glb", with_image({{"uri", uri}}).glb());
+    return folder / "test.glb";
+  }
+};
+
+TEST(Images, PathsOutsideTheFolderAreRefused) {
+  const SceneFolder folder("secret.png");
+  const auto& [outer, inner] = folder;
+  for (const std::string& uri :
+       {std::string("../secret.png"), std::string("%2e%2e/secret.png"), std::string("a/../../secret.png"),
+        (outer.path() / "secret.png").string(), "file://" + (outer.path() / "secret.png").string(),
+        std::string("http://localhost/secret.png"), std::string("secret.png%00.png"),
+        std::string("..\\secret.png")}) {
+    expect_refused(folder.with(uri), {"images[0].uri", uri});
+  }
+  write_bytes(inner / "own.png", kGrey);
+  EXPECT_EQ(refusal(folder.with("sub/../own.png")), "");
+}
+
+TEST(Images, ALinkOutOfTheFolderIsRefusedAndALinkWithinIsNot) {
+  const SceneFolder folder("secret.png");
+  const auto& [outer, inner] = folder;
+  write_bytes(inner / "own.png", kGrey);
+  std::filesystem::create_symlink("../secret.png", inner / "link.png");
+  std::filesystem::create_symlink(outer.path(), inner / "up");
+  std::filesystem::create_symlink("own.png", inner / "other.png");
+  std::filesystem::create_symlink("none.png", inner / "dangling.png");
+  for (const char* uri : {"link.png", "up/secret.png", "up/scene/link.png", "%6cink.png"}) {
+    expect_refused(folder.with(uri), {"images[0].uri", uri, "`allow-external`"});
+  }
+  expect_refused(folder.with("dangling.png"), {"images[0]", "dangling.png"});
+  EXPECT_EQ(refusal(folder.with("other.png")), "");
+  EXPECT_EQ(refusal(folder.with("up/scene/own.png")), "");
+  // The folder itself may be reached by a link.
+  std::filesystem::create_symlink("scene", outer.path() / "scene-link");
+  EXPECT_EQ(refusal(folder.with("other.png", outer.path() / "scene-link")), "");
+}
+
+TEST(Images, FilesOfOtherFoldersAreReadWhereThatIsAllowed) {
+  const SceneFolder folder("grey 1.png");
+  const auto& [outer, inner] = folder;
+  std::filesystem::create_symlink("../grey 1.png", inner / "link.png");
+  const std::string absolute = outer.path().string() + "/grey%201.png";
+  for (const std::string& uri :
+       {std::string("../grey 1.png"), std::string("%2e%2e/grey%201.png"), std::string("link.png"), absolute,
+        "file://" + absolute, "FILE://localhost" + absolute, "file:" + absolute}) {
+    EXPECT_EQ(refusal(folder.with(uri), {.allow_external = true}), "") << uri;
+  }
+  for (const char* host : {"http://localhost", "file://elsewhere"}) {
+    expect_refused(folder.with(host + absolute), {"images[0].uri", host}, {.allow_external = true});
+  }
 }
 
 TEST(Buffers, WithoutASourceAreRefusedWhenRead) {
   GltfBuilder file = triangle_file();
   file.root["buffers"] = {{{"byteLength", 1000}}};
-  const TemporaryFolder folder;
-  write_bytes(folder.path() / "test.gltf", text_bytes(file.root.dump()));
-  expect_refused(folder.path() / "test.gltf", {"accessors[0]", "buffer 0"});
+  expect_refused_text(file.root.dump(), {"accessors[0]", "buffer 0"});
 }
 
 TEST(Tinygltf, AnyChunksAndLengthsOfAGlbAreRead) {
@@ -226,9 +290,7 @@ TEST(Tinygltf, ManyEmptyObjectsAreRefused) {
   std::string text = "{\"asset\":{\"version\":\"2.0\"},\"materials\":[{}";
   for (int i = 0; i < 1000000; ++i) text += ",{}";
   text += "]}";
-  const TemporaryFolder folder;
-  write_bytes(folder.path() / "test.gltf", {text.begin(), text.end()});
-  expect_refused(folder.path() / "test.gltf", {"JSON", "MiB", std::to_string(text.size())});
+  expect_refused_text(text, {"JSON", "MiB", std::to_string(text.size())});
 }
 
 /// Values that the loader does not use are not kept, whatever they are.

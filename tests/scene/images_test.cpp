@@ -1,6 +1,10 @@
+// Pictures of textures. Those of 16 bits keep them where they are normal maps, and only there.
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "base/image/png_write.h"
+#include "tests/support/gltf_builder.h"
 #include "tests/support/gltf_parts.h"
 #include "tests/support/png_checksums.h"
 #include "tests/support/small_pngs.h"
@@ -9,6 +13,7 @@ namespace gatelight::scene {
 namespace {
 
 using ::testing::ElementsAre;
+using ::testing::IsEmpty;
 using tests::expect_message;
 using tests::expect_messages;
 
@@ -45,13 +50,6 @@ const char* const kMovingWebp =
 /// The first bytes of KTX2 and DDS files.
 const char* const kKtx2 = "data:image/ktx2;base64,q0tUWCAyMLsNChoKAAAAAA==";
 const char* const kDds = "data:image/vnd-ms.dds;base64,RERTIHwAAAAHEAAA";
-
-GltfBuilder with_image(const json& image) {
-  GltfBuilder file = triangle_of({{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}});
-  file.add("images", image);
-  file.add("textures", {{"source", 0}});
-  return file;
-}
 
 GltfBuilder with_bytes(const std::vector<std::uint8_t>& bytes) {
   GltfBuilder file = with_image({{"mimeType", "image/png"}});
@@ -240,71 +238,6 @@ TEST(Images, WithoutAFallbackTheMessageNamesAConverter) {
   }
 }
 
-/// The folder of a scene within another one.
-struct SceneFolder {
-  TemporaryFolder outer;
-  std::filesystem::path inner = outer.path() / "scene";
-
-  explicit SceneFolder(const char* picture_outside) {
-    std::filesystem::create_directory(inner);
-    write_bytes(outer.path() / picture_outside, kGrey);
-  }
-  /// The path of a scene in the inner folder, or in `folder`.
-  std::filesystem::path with(const std::string& uri, std::filesystem::path folder = {}) const {
-    if (folder.empty()) folder = inner;
-    write_bytes(folder / "test.glb", with_image({{"uri", uri}}).glb());
-    return folder / "test.glb";
-  }
-};
-
-TEST(Images, PathsOutsideTheFolderAreRefused) {
-  const SceneFolder folder("secret.png");
-  const auto& [outer, inner] = folder;
-  for (const std::string& uri :
-       {std::string("../secret.png"), std::string("%2e%2e/secret.png"), std::string("a/../../secret.png"),
-        (outer.path() / "secret.png").string(), "file://" + (outer.path() / "secret.png").string(),
-        std::string("http://localhost/secret.png"), std::string("secret.png%00.png"),
-        std::string("..\\secret.png")}) {
-    expect_refused(folder.with(uri), {"images[0].uri", uri});
-  }
-  write_bytes(inner / "own.png", kGrey);
-  EXPECT_EQ(refusal(folder.with("sub/../own.png")), "");
-}
-
-TEST(Images, ALinkOutOfTheFolderIsRefusedAndALinkWithinIsNot) {
-  const SceneFolder folder("secret.png");
-  const auto& [outer, inner] = folder;
-  write_bytes(inner / "own.png", kGrey);
-  std::filesystem::create_symlink("../secret.png", inner / "link.png");
-  std::filesystem::create_symlink(outer.path(), inner / "up");
-  std::filesystem::create_symlink("own.png", inner / "other.png");
-  std::filesystem::create_symlink("none.png", inner / "dangling.png");
-  for (const char* uri : {"link.png", "up/secret.png", "up/scene/link.png", "%6cink.png"}) {
-    expect_refused(folder.with(uri), {"images[0].uri", uri, "`allow-external`"});
-  }
-  expect_refused(folder.with("dangling.png"), {"images[0]", "dangling.png"});
-  EXPECT_EQ(refusal(folder.with("other.png")), "");
-  EXPECT_EQ(refusal(folder.with("up/scene/own.png")), "");
-  // The folder itself may be reached by a link.
-  std::filesystem::create_symlink("scene", outer.path() / "scene-link");
-  EXPECT_EQ(refusal(folder.with("other.png", outer.path() / "scene-link")), "");
-}
-
-TEST(Images, FilesOfOtherFoldersAreReadWhereThatIsAllowed) {
-  const SceneFolder folder("grey 1.png");
-  const auto& [outer, inner] = folder;
-  std::filesystem::create_symlink("../grey 1.png", inner / "link.png");
-  const std::string absolute = outer.path().string() + "/grey%201.png";
-  for (const std::string& uri :
-       {std::string("../grey 1.png"), std::string("%2e%2e/grey%201.png"), std::string("link.png"), absolute,
-        "file://" + absolute, "FILE://localhost" + absolute, "file:" + absolute}) {
-    EXPECT_EQ(refusal(folder.with(uri), {.allow_external = true}), "") << uri;
-  }
-  for (const char* host : {"http://localhost", "file://elsewhere"}) {
-    expect_refused(folder.with(host + absolute), {"images[0].uri", host}, {.allow_external = true});
-  }
-}
-
 TEST(Images, WithEqualBytesAreDecodedOnce) {
   GltfBuilder file;
   const int view = file.view(kGrey);
@@ -336,6 +269,64 @@ TEST(Images, AMeshWithoutTextureCoordinatesGivesAWarning) {
   EXPECT_THAT(file.load().warnings, ::testing::IsEmpty());
   file.root["meshes"][0]["primitives"][0]["attributes"].erase("TEXCOORD_0");
   expect_messages(file.load().warnings, {{}});
+}
+
+const std::vector<std::uint16_t> kPixel = {32800, 32768, 65535};
+const json kTexture = {{"index", 0}};
+const json kAsNormal = {{"normalTexture", kTexture}};
+const json kAsColor = {{"pbrMetallicRoughness", {{"baseColorTexture", kTexture}}}};
+const json kAsRoughness = {{"pbrMetallicRoughness", {{"metallicRoughnessTexture", kTexture}}}};
+const json kAsCoatNormal = {
+    {"extensions",
+     {{"KHR_materials_clearcoat", {{"clearcoatFactor", 1.0}, {"clearcoatNormalTexture", kTexture}}}}}};
+
+/// Loads the picture, which a triangle of each material reads.
+Image loaded(const std::vector<std::uint8_t>& png, const std::vector<json>& materials) {
+  GltfBuilder file;
+  file.add("images", {{"mimeType", "image/png"}});
+  file.root["images"][0]["bufferView"] = file.view(png);
+  file.add("textures", {{"source", 0}});
+  for (const json& material : materials) {
+    json primitive = file.triangle();
+    primitive["material"] = file.add("materials", material);
+    file.node({{"mesh", file.mesh(primitive)}});
+  }
+  return file.load().images.at(0);
+}
+
+std::vector<std::uint8_t> png_16() {
+  return encode_png(std::span<const std::uint16_t>(kPixel), 1, 1, 3);
+}
+
+TEST(ImageBits, NormalMapsKeepSixteen) {
+  for (const auto& materials : {std::vector{kAsNormal}, {kAsCoatNormal}, {kAsNormal, kAsCoatNormal}}) {
+    const Image image = loaded(png_16(), materials);
+    EXPECT_EQ(image.pixels_16, kPixel);
+    EXPECT_THAT(image.pixels, IsEmpty());
+    EXPECT_EQ(image.channels, 3);
+  }
+}
+
+TEST(ImageBits, OtherUsesGetEight) {
+  for (const auto& materials :
+       {std::vector{kAsColor}, {kAsRoughness}, {kAsNormal, kAsColor}, {kAsRoughness, kAsCoatNormal}}) {
+    const Image image = loaded(png_16(), materials);
+    EXPECT_THAT(image.pixels_16, IsEmpty());
+    EXPECT_THAT(image.pixels, ElementsAre(128, 128, 255));
+  }
+}
+
+TEST(ImageBits, NormalMapsOfEightStayEight) {
+  const std::vector<std::uint8_t> pixel = {127, 128, 255};
+  const Image image = loaded(encode_png(std::span<const std::uint8_t>(pixel), 1, 1, 3), {kAsNormal});
+  EXPECT_THAT(image.pixels_16, IsEmpty());
+  EXPECT_EQ(image.pixels, pixel);
+}
+
+TEST(ImageBits, SixteenTakeTwiceTheMemory) {
+  Scene scene;
+  scene.images = {loaded(png_16(), {kAsNormal}), loaded(png_16(), {kAsColor})};
+  EXPECT_EQ(image_bytes(scene), 6u + 3u);
 }
 
 }  // namespace

@@ -56,6 +56,14 @@ inline GltfBuilder triangle_of(const json& material) {
   return file;
 }
 
+/// A triangle with this picture.
+inline GltfBuilder with_image(const json& image) {
+  GltfBuilder file = triangle_of({{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}});
+  file.add("images", image);
+  file.add("textures", {{"source", 0}});
+  return file;
+}
+
 /// A triangle whose vertices follow joint 0.
 inline json triangle_of_joint(GltfBuilder& file) {
   json primitive = file.triangle();
