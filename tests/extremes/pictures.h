@@ -1,7 +1,8 @@
 #pragma once
 // Pictures of scenes at the extremes, and checks of them.
 
-#include <algorithm>
+#include <gtest/gtest.h>
+
 #include <cmath>
 #include <vector>
 
@@ -17,10 +18,6 @@ struct Rendered {
   std::vector<float> values;  ///< R, G, B of each pixel
   renderer::RenderStatistics statistics;
 
-  bool sane() const {
-    return statistics.nonfinite == 0 &&
-           std::all_of(values.begin(), values.end(), [](float v) { return std::isfinite(v) && v >= 0.0f; });
-  }
   double mean() const {
     double sum = 0.0;
     for (const float v : values) sum += static_cast<double>(v);
@@ -56,11 +53,14 @@ inline renderer::RenderOptions white_sky(int spp, int depth) {
   return options;
 }
 
+/// A picture without non-finite and negative values.
 inline Rendered render(const scene::Scene& scene, const renderer::RenderOptions& options) {
   renderer::Renderer renderer(scene, options);
   Rendered result;
   result.values = renderer.render().layers[0].values;
   result.statistics = renderer.statistics();
+  EXPECT_EQ(result.statistics.nonfinite, 0u);
+  for (const float v : result.values) EXPECT_TRUE(std::isfinite(v) && v >= 0.0f) << v;
   return result;
 }
 

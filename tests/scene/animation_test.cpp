@@ -95,21 +95,6 @@ TEST(Animations, CubicSplinesAreThePolynomialsOfHermite) {
   }
 }
 
-TEST(Animations, ACubicIsReproducedByItsSpline) {
-  const auto cubic = [](double t) { return t * t * t - 2.0 * t * t + 3.0; };
-  const auto slope = [](double t) { return 3.0 * t * t - 4.0 * t; };
-  Floats values;
-  const Floats keys{0, 0.5f, 2, 3};
-  for (const float key : keys) {
-    const double t = static_cast<double>(key);
-    for (const double v : {slope(t), cubic(t), slope(t)})
-      values.insert(values.end(), {static_cast<float>(v), 0, 0});
-  }
-  AnimatedFile file = translated_triangle(keys, values, "CUBICSPLINE");
-  for (double t = 0.0; t <= 3.0; t += 0.17)
-    EXPECT_NEAR(static_cast<double>(file.place_at(t).x()), cubic(t), 5e-6);
-}
-
 TEST(Animations, RotationsTurnAtAConstantRate) {
   const Vec3 axis(1, -2, 0.5f);
   AnimatedFile file = rotated_triangle({0, 2}, joined({about(axis, 0.3f), about(axis, 2.8f)}));
@@ -212,15 +197,6 @@ TEST(Animations, SplinesOfWeightsHaveAllInTangentsThenAllValues) {
             "CUBICSPLINE");
   EXPECT_EQ(first_vertex(file, 0.0), Vec3(0, 1, 0));
   EXPECT_EQ(first_vertex(file, 0.5), Vec3(0.5f, 0.75f, 0));
-}
-
-TEST(Animations, WeightsMayBeNormalisedBytes) {
-  AnimatedFile file = morphing_triangle();
-  file.move(0, "weights",
-            {file.seconds({0, 1}), file.accessor(std::vector<std::uint8_t>{0, 255, 51, 102}, kUnsignedByte,
-                                                 "SCALAR", 4, {{"normalized", true}})});
-  EXPECT_EQ(first_vertex(file, 0.0), Vec3(0, 1, 0));
-  EXPECT_TRUE(first_vertex(file, 1.0).isApprox(Vec3(0.2f, 0.4f, 0), 1e-6f));
 }
 
 TEST(Animations, SkinsFollowTheirJoints) {
