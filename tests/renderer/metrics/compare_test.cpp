@@ -86,12 +86,12 @@ TEST(Compare, AlphaIsIgnoredAndOneChannelIsGrey) {
   EXPECT_EQ(compare(one_pixel({"Y"}, {2.0f}), one_pixel({"Y"}, {2.5f})).mse, 0.25);
 }
 
-std::string refusal(const Picture& reference, const Picture& test) {
+std::string refusal_to_compare(const Picture& reference, const Picture& test) {
   return tests::refusal<InputError>([&] { compare(reference, test); });
 }
 
 TEST(Compare, DifferentSizesNameBothPictures) {
-  expect_message(refusal(rgb(2, 1, std::vector<float>(6)), rgb(1, 2, std::vector<float>(6))),
+  expect_message(refusal_to_compare(rgb(2, 1, std::vector<float>(6)), rgb(1, 2, std::vector<float>(6))),
                  {"ref.exr", "2x1", "test.exr", "1x2"});
 }
 
@@ -100,22 +100,22 @@ TEST(Compare, DifferentRegionsOfOnePictureNameBoth) {
   left.full_width = right.full_width = 4;
   left.full_height = right.full_height = 1;
   right.x0 = 2;
-  expect_message(refusal(left, right), {"4x1", "ref.exr", "0,0", "test.exr", "2,0"});
-  EXPECT_EQ(refusal(right, right), "");
-  EXPECT_EQ(refusal(rgb(2, 1, std::vector<float>(6)), right), "") << "a PNG of the same region";
+  expect_message(refusal_to_compare(left, right), {"4x1", "ref.exr", "0,0", "test.exr", "2,0"});
+  EXPECT_EQ(refusal_to_compare(right, right), "");
+  EXPECT_EQ(refusal_to_compare(rgb(2, 1, std::vector<float>(6)), right), "") << "a PNG of the same region";
 }
 
 TEST(Compare, GreyAndColoursAreRefused) {
   const Picture grey = one_pixel({"Y", "A"}, {2.0f, 1.0f}), colours = rgb(1, 1, {2, 2, 2});
-  expect_message(refusal(grey, colours), {"ref.exr", "test.exr"});
-  expect_message(refusal(colours, grey), {"ref.exr", "test.exr"});
+  expect_message(refusal_to_compare(grey, colours), {"ref.exr", "test.exr"});
+  expect_message(refusal_to_compare(colours, grey), {"ref.exr", "test.exr"});
 }
 
 TEST(Compare, APictureWithoutColoursIsRefusedByName) {
-  expect_message(refusal(rgb(1, 1, {1, 2, 3}), one_pixel({"Z"}, {1.0f})), {"test.exr"});
-  expect_message(refusal(Picture{.width = 1, .height = 1}, rgb(1, 1, {1, 2, 3})), {"ref.exr"});
+  expect_message(refusal_to_compare(rgb(1, 1, {1, 2, 3}), one_pixel({"Z"}, {1.0f})), {"test.exr"});
+  expect_message(refusal_to_compare(Picture{.width = 1, .height = 1}, rgb(1, 1, {1, 2, 3})), {"ref.exr"});
   const Picture part = one_pixel({"R", "G", "Z"}, {1, 2, 3});
-  expect_message(refusal(part, part), {"ref.exr", "R, G, Z"});
+  expect_message(refusal_to_compare(part, part), {"ref.exr", "R, G, Z"});
 }
 
 TEST(ErrorMap, RunsFromBlackToWhiteAndMarksNonFinite) {
