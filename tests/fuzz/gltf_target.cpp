@@ -3,7 +3,7 @@
 #include "scene/gltf.h"
 #include "scene/requirements.h"
 #include "tests/fuzz/input_file.h"
-#include "tests/fuzz/made_glb.h"
+#include "tests/support/made_glb.h"
 #include "tests/support/scene_fault.h"
 
 namespace gatelight::fuzz {
@@ -28,7 +28,7 @@ void gltf(Bytes bytes) {
 
 void gltf_parts(Bytes bytes) {
   static const InputFile file("scene.glb");
-  load(file.write(made_glb(bytes)));
+  load(file.write(tests::made_glb(bytes)));
 }
 
 }  // namespace gatelight::fuzz

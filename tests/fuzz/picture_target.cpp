@@ -11,7 +11,7 @@
 #include "renderer/light/environment.h"
 #include "scene/gltf.h"
 #include "tests/fuzz/input_file.h"
-#include "tests/fuzz/made_glb.h"
+#include "tests/support/made_glb.h"
 #include "tests/support/png_checksums.h"
 #include "tests/support/scene_fault.h"
 
@@ -79,7 +79,7 @@ std::vector<std::uint8_t> textured(Bytes picture) {
   const auto* bytes = reinterpret_cast<const std::uint8_t*>(positions);
   parts.insert(parts.end(), bytes, bytes + sizeof(positions));
   parts.insert(parts.end(), picture.begin(), picture.end());
-  return made_glb(parts);
+  return tests::made_glb(parts);
 }
 
 void read_texture(Bytes picture) {

@@ -7,7 +7,7 @@
 #include "renderer/render.h"
 #include "scene/gltf.h"
 #include "tests/fuzz/input_file.h"
-#include "tests/fuzz/made_glb.h"
+#include "tests/support/made_glb.h"
 
 namespace gatelight::fuzz {
 namespace {
@@ -44,7 +44,8 @@ void render(const scene::Scene& scene, renderer::Integrator integrator) {
 void render(Bytes bytes) {
   static const InputFile file("scene.glb");
   try {
-    const scene::Scene scene = scene::load_gltf(file.write(made_glb(bytes)), {.missing_is_error = false});
+    const scene::Scene scene =
+        scene::load_gltf(file.write(tests::made_glb(bytes)), {.missing_is_error = false});
     if (scene::count_triangles(scene) > kMaxTriangles || scene::image_bytes(scene) > 1 << 20) return;
     render(scene, renderer::Integrator::path);
     render(scene, renderer::Integrator::nrc);

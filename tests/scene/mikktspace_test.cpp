@@ -1,4 +1,4 @@
-// The rules of MikkTSpace: which corners share a tangent, and how it is weighted. tangents_test.cpp tests the
+// The rules of MikkTSpace: which corners share a tangent, and how it is weighted. topology_test.cpp tests the
 // frame of a single triangle.
 
 #include <gtest/gtest.h>

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "scene/gltf.h"
+#include "tests/support/made_glb.h"
 #include "tests/support/messages.h"
 #include "tests/support/temporary_folder.h"
 
@@ -30,11 +31,6 @@ inline constexpr int kFloat = 5126;
 inline void write_bytes(const std::filesystem::path& path, const std::vector<std::uint8_t>& bytes) {
   std::ofstream out(path, std::ios::binary);
   out.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-}
-
-inline std::vector<std::uint8_t> read_bytes(const std::filesystem::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
 }
 
 /// The error of load_gltf; empty when it loads.
@@ -106,20 +102,10 @@ class GltfBuilder {
     finish();
     std::string text = root.dump();
     while (text.size() % 4 != 0) text.push_back(' ');
-    std::vector<std::uint8_t> out;
-    const auto u32 = [&](std::size_t v) {
-      for (int i = 0; i < 4; ++i) out.push_back(static_cast<std::uint8_t>(v >> (8 * i)));
-    };
-    u32(0x46546c67);
-    u32(2);
-    u32(12 + 8 + text.size() + 8 + bin.size());
-    u32(text.size());
-    u32(0x4e4f534a);
-    out.insert(out.end(), text.begin(), text.end());
-    u32(bin.size());
-    u32(0x004e4942);
-    out.insert(out.end(), bin.begin(), bin.end());
-    return out;
+    std::vector<std::uint8_t> parts(text.begin(), text.end());
+    parts.push_back(0);
+    parts.insert(parts.end(), bin.begin(), bin.end());
+    return tests::made_glb(parts);
   }
 
   std::filesystem::path write(const TemporaryFolder& folder, const std::string& name = "test.glb") {
