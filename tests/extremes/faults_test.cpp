@@ -2,13 +2,14 @@
 // with a comma in its numbers.
 
 #include <fcntl.h>
-#include <linux/capability.h>
 #include <sched.h>
 #include <signal.h>
 #include <sys/mount.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <unistd.h>
+
+#include <linux/capability.h>
 
 #include <clocale>
 #include <cstdlib>
