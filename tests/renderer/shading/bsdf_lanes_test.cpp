@@ -23,23 +23,6 @@ std::vector<LanePoint> fill(ShadingBlock& block, Random& random, int count = Sha
   return points;
 }
 
-struct LitLanes {
-  ShadingBlock block;
-  std::vector<LanePoint> points;
-  std::vector<Vec3> wis;
-};
-
-/// With light from a direction above each.
-LitLanes lit_lanes(Random& random) {
-  LitLanes lanes;
-  lanes.points = fill(lanes.block, random);
-  for (int lane = 0; lane < lanes.block.count; ++lane) {
-    lanes.wis.push_back(random_above(random, lanes.points[lane].surface.geometric_normal));
-    put_light(lanes.block, lane, lanes.wis[lane], true, 1.0f);
-  }
-  return lanes;
-}
-
 /// The largest difference, over the magnitude of both.
 struct Worst {
   double value = 0.0;
@@ -186,7 +169,13 @@ TEST(BsdfLanes, WidePartsAreThoseOfTheScalarCode) {
     context.separates_wide = true;
     context.min_roughness = roughness;
     for (int b = 0; b < kBlocks / 3; ++b) {
-      auto [block, points, wis] = lit_lanes(random);
+      ShadingBlock block;
+      const std::vector<LanePoint> points = fill(block, random);
+      std::vector<Vec3> wis;
+      for (int lane = 0; lane < block.count; ++lane) {
+        wis.push_back(random_above(random, points[lane].surface.geometric_normal));
+        put_light(block, lane, wis[lane], true, 1.0f);
+      }
       const ShadingBlock result = run_all(block, context, &ShadingKernels::scatter);
       for (int lane = 0; lane < block.count; ++lane) {
         const LanePoint& p = points[lane];
@@ -226,8 +215,12 @@ TEST(BsdfLanes, NarrowPartsAreThoseOfTheScalarCode) {
     narrow_only.narrow_only = true;
     narrow_only.roulette = {2.0f, 0.9f, 0};
     for (int b = 0; b < kBlocks / 3; ++b) {
-      auto [block, points, wis] = lit_lanes(random);
+      ShadingBlock block;
+      const std::vector<LanePoint> points = fill(block, random);
+      std::vector<Vec3> wis;
       for (int lane = 0; lane < block.count; ++lane) {
+        wis.push_back(random_above(random, points[lane].surface.geometric_normal));
+        put_light(block, lane, wis[lane], true, 1.0f);
         block.events_before_roulette[lane] = 0;
         for (int c = 0; c < 3; ++c) block.throughput[c][lane] = 0.3f;
       }
