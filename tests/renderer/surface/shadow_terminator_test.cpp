@@ -25,12 +25,11 @@ double lost_light(const scene::Scene& ball) {
   const Tracer world(ball);
   int lost = 0, all = 0;
   for (std::uint32_t i = 0; i < 20000; ++i) {
-    Ray ray;
-    ray.origin = 3.0f * sample_uniform_sphere(random_2d(i, 0));
-    ray.direction = (0.7f * sample_uniform_sphere(random_2d(i, 2)) - ray.origin).normalized();
-    const Hit hit = world.hit(ray);
+    const Vec3 origin = 3.0f * sample_uniform_sphere(random_2d(i, 0));
+    const Vec3 direction = (0.7f * sample_uniform_sphere(random_2d(i, 2)) - origin).normalized();
+    const Hit hit = world.hit(origin, direction);
     if (!hit) continue;
-    const Surface surface = world.surfaces.at(hit, ray.direction, 0.0f, 0.5f);
+    const Surface surface = world.surfaces.at(hit, direction, 0.0f, 0.5f);
     const Vec3 wi = Basis(surface.smooth_normal).to_world(sample_cosine_hemisphere(random_2d(i, 4)));
     const bool above = wi.dot(surface.geometric_normal) > 0.0f;
     all += 1;
@@ -66,12 +65,10 @@ TEST(ShadowTerminator, PlacedAndMirroredBallsLoseNoLight) {
 /// The surface that a ray from `eye` to `target` hits.
 Surface seen(const scene::Scene& s, const Vec3& eye, const Vec3& target) {
   const Tracer world(s);
-  Ray ray;
-  ray.origin = eye;
-  ray.direction = (target - eye).normalized();
-  const Hit hit = world.hit(ray);
+  const Vec3 direction = (target - eye).normalized();
+  const Hit hit = world.hit(eye, direction);
   EXPECT_TRUE(hit);
-  return world.surfaces.at(hit, ray.direction, 0.0f, 0.5f);
+  return world.surfaces.at(hit, direction, 0.0f, 0.5f);
 }
 
 TEST(ShadowTerminator, PointsRiseBetweenTheTrianglesAndTheTangentPlanes) {
@@ -92,13 +89,11 @@ TEST(ShadowTerminator, FlatHollowAndTransparentSurfacesStayWhereTheyAre) {
   const Vec3 eye(0.3f, 0.4f, 2.5f), target(0.05f, 0.1f, 0.0f);
   const auto stays = [&](const scene::Scene& s, const Vec3& from) {
     const Tracer world(s);
-    Ray ray;
-    ray.origin = from;
-    ray.direction = (target - from).normalized();
-    const Hit hit = world.hit(ray);
-    const Surface surface = world.surfaces.at(hit, ray.direction, 0.0f, 0.5f);
+    const Vec3 direction = (target - from).normalized();
+    const Hit hit = world.hit(from, direction);
+    const Surface surface = world.surfaces.at(hit, direction, 0.0f, 0.5f);
     const Vec3 ng = scene::world_normal(s, s.instances[0], hit.primitive);
-    return (surface.position - (ray.origin + hit.t * ray.direction)).norm() < 1e-5f &&
+    return (surface.position - (from + hit.t * direction)).norm() < 1e-5f &&
            std::abs(std::abs(surface.geometric_normal.dot(ng)) - 1.0f) < 1e-6f;
   };
   const scene::Material clay = SceneBuilder::lambert(Color::Ones());

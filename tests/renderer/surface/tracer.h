@@ -10,24 +10,20 @@ struct Tracer {
   explicit Tracer(const scene::Scene& s, const AccelOptions& options = {})
       : textures(s), coverage(s, textures, media), surfaces(s, textures), accel(s, coverage, options) {}
 
-  Hit hit(const Ray& ray) const {
-    Hit result;
-    accel.intersect({&ray, 1}, {&result, 1}, false);
-    return result;
-  }
-  Color passed(const Ray& ray) const {
-    Color result;
-    accel.transmittance({&ray, 1}, {&result, 1});
-    return result;
-  }
   Hit hit(const Vec3& origin, const Vec3& direction) const {
     Ray ray;
     ray.origin = origin;
     ray.direction = direction;
-    return hit(ray);
+    Hit result;
+    accel.intersect({&ray, 1}, {&result, 1}, false);
+    return result;
   }
+
   Color passed(const Vec3& origin, const Vec3& direction, float t_max, std::uint32_t seed = 0) const {
-    return passed(Ray{origin, t_max, direction, seed});
+    const Ray ray{origin, t_max, direction, seed};
+    Color result;
+    accel.transmittance({&ray, 1}, {&result, 1});
+    return result;
   }
 
   Textures textures;
