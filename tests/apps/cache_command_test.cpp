@@ -130,13 +130,6 @@ TEST_F(CacheCommand, ThreadsDoNotChangeABit) {
   }
 }
 
-TEST_F(CacheCommand, TheSeedChangesTheTraining) {
-  for (const char* seed : {"0", "1"})
-    expect_done(render(words_of("--integrator nao --quiet --exr float --seed {} -o {}",
-                                {seed, path(std::string(seed) + ".exr")})));
-  EXPECT_NE(beauty_of(path("0.exr")), beauty_of(path("1.exr")));
-}
-
 TEST_F(CacheCommand, EveryPresetRendersWithEitherEncoding) {
   for (const char* preset : {"bare", "preview", "standard", "final", "paper-nao", "paper-nrc"}) {
     for (const char* encoding : {"gate", "hashgrid"}) {

@@ -109,14 +109,6 @@ TEST_F(InfoCommand, JsonHasCamerasWithTheirTransforms) {
       << "column after column";
 }
 
-TEST_F(InfoCommand, TextHasTheUnitsOfLights) {
-  const Output text = info(lit_scene());
-  EXPECT_THAT(text.out, AllOf(HasSubstr("point 'lamp', intensity 8 4 2 W/sr\n"),
-                              HasSubstr("directional 'sun', intensity 8 4 2 W/m2\n"), HasSubstr("candela"),
-                              HasSubstr("'plan', node 'above', orthographic, 3 m high")));
-  EXPECT_THAT(info(folder.write("dark.gltf", tiny_scene())).out, Not(HasSubstr("candela")));
-}
-
 TEST_F(InfoCommand, AnimationsHaveNamesAndLengths) {
   const std::string figure = GATELIGHT_SOURCE_DIR "/data/figure.glb";
   EXPECT_THAT(info(figure).out, HasSubstr("0 'walk', 1 s\n"));

@@ -138,18 +138,6 @@ TEST_F(LightFlags, GroupsOfDenoisedPicturesAddUpToRawAndAreMerged) {
   }
 }
 
-TEST_F(LightFlags, BadGroupsAreRefusedInOneLine) {
-  const auto refused = [&](const Words& flags) {
-    return run_gatelight_inside(words_of("render {} -o {}", {scene, path("b.exr")}, flags));
-  };
-  expect_failure(refused({"--light-groups", "key=noom"}), 1,
-                 {"--light-groups", "key", "'noom'", "'noon'", "'panel'", "did you mean 'noon'"});
-  expect_failure(refused({"--light-groups", "a=*;b=noon"}), 1, {"--light-groups", "'noon'", "'a'", "'b'"});
-  expect_failure(refused({"--light-groups", "a=environment"}), 1, {"--light-groups", "environment"});
-  expect_failure(refused({"--light-groups", "key=noon", "--preset", "bare"}), 1,
-                 {"--light-groups", "nrc", "--integrator path"});
-}
-
 TEST_F(LightFlags, ASkyLightsASceneWithoutLightsAndIsInTheRecipe) {
   const std::string dark = folder.write("dark.gltf", tiny_scene());
   const std::string file = (folder / "sky.exr").string();

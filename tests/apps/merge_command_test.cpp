@@ -37,21 +37,6 @@ TEST_F(MergeCommand, WritesTheWeightedMeanIn32Bits) {
   EXPECT_EQ(merged.metadata.at("seed"), "1,2");
 }
 
-TEST_F(MergeCommand, MergesPicturesOfRender) {
-  const std::string scene = folder.write("scene.gltf", tiny_scene());
-  for (const char* seed : {"1", "2"}) {
-    expect_done(
-        run_gatelight_inside({"render", scene, "-o", path(std::string(seed) + ".exr"), "--size", "8x6",
-                              "--spp", "2", "--seed", seed, "--aov", "variance,depth", "--quiet"}));
-  }
-  expect_done(merge({path("1.exr"), path("2.exr"), "-o", path("m.exr")}));
-  const renderer::Picture merged = renderer::read_image(path("m.exr"));
-  EXPECT_EQ(merged.layers.size(), 3u);
-  EXPECT_EQ(merged.metadata.at("spp"), "4");
-  EXPECT_EQ(merged.metadata.at("integrator"), "path");
-  EXPECT_FALSE(merged.metadata.contains("command"));
-}
-
 TEST_F(MergeCommand, EqualSeedsGiveAWarning) {
   const std::string a = picture("a.exr", 1, 1.0f, {{"spp", "1"}, {"seed", "7"}});
   const std::string b = picture("b.exr", 1, 2.0f, {{"spp", "1"}, {"seed", "7"}});

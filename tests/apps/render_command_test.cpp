@@ -57,14 +57,6 @@ TEST_F(RenderCommand, ATimeIsInTheRecipeAndDecidesWhoseCheckpointItIs) {
   expect_failure(render_at("0.5"), 2, {path("c"), "geometry"});
 }
 
-TEST_F(RenderCommand, ReproducibleFilesAreEqualForAnyNumberOfThreads) {
-  expect_done(render({"-o", path("a.exr"), "--reproducible", "--quiet", "--threads", "1"}));
-  expect_done(render({"-o", path("b.exr"), "--reproducible", "--quiet", "--threads", "2"}));
-  expect_done(render({"-o", path("c.exr"), "--reproducible", "--quiet", "--seed", "1"}));
-  EXPECT_EQ(read_file(path("a.exr")), read_file(path("b.exr")));
-  EXPECT_NE(beauty_of(path("a.exr")), beauty_of(path("c.exr")));
-}
-
 TEST_F(RenderCommand, CryptomattesAreInTheExrAndStayWhenItIsMergedAndDenoised) {
   GATELIGHT_NEEDS_DENOISER();
   for (const char* seed : {"1", "2"}) {

@@ -67,11 +67,6 @@ TEST_F(RenderReports, StatisticsHoldEveryKeyOfTheSchema) {
   EXPECT_EQ(stats["options"]["environment"], json({1.0, 1.0, 1.0}));
 }
 
-TEST_F(RenderReports, StatisticsAreTheOnlyOutputOnStdout) {
-  const Output output = expect_done(render({"-o", path("a.png"), "--stats", "-"}));
-  EXPECT_EQ(json::parse(output.out)["spp"], 4);
-}
-
 TEST_F(RenderReports, TheRecipeIsInTheHeader) {
   expect_done(render({"-o", path("a.exr"), "--seed", "9", "--quiet"}));
   const std::map<std::string, std::string> recipe = read_image(path("a.exr")).metadata;
@@ -224,14 +219,6 @@ TEST_F(RenderReports, QuietPrintsNothing) {
   const Output output = expect_done(render({"-o", path("a.png"), "--quiet", "--progress", "json"}));
   EXPECT_EQ(output.out, "");
   EXPECT_EQ(output.err, "");
-}
-
-TEST_F(RenderReports, ATimeLimitEndsTheRunWithCode0) {
-  const Output output =
-      expect_done(render({"-o", path("a.png"), "--spp", "16777216", "--time-limit", "0.3", "--stats", "-"}));
-  const json stats = json::parse(output.out);
-  EXPECT_EQ(stats["interrupted"], true);
-  EXPECT_GE(stats["spp"], 1);
 }
 
 TEST_F(RenderReports, ATimeLimitDecidesHowManySamplesAPresetHas) {

@@ -262,6 +262,12 @@ TEST(Extremes, AnInvalidStateIsRefusedAndChangesNothing) {
   refused([](ModelState& s) { s.first_moments[7] = -HUGE_VALF; });
   refused([](ModelState& s) { s.second_moments[7] = -1e-30f; });
   refused([](ModelState& s) { s.steps = ~std::uint64_t{0}; });
+  refused([](ModelState& s) { s.parameters.pop_back(); });
+  refused([](ModelState& s) { s.averages.push_back(0); });
+  refused([](ModelState& s) { s.first_moments.clear(); });
+  refused([](ModelState& s) { s.second_moments.pop_back(); });
+  refused([](ModelState& s) { s.node_steps.clear(); });
+  refused([](ModelState& s) { s.triangle_steps.push_back(1); });
 }
 
 TEST(Extremes, MoreAuxiliaryInputsThanKernelsHoldAreRefused) {

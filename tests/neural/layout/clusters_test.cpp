@@ -207,17 +207,6 @@ TEST(Clusters, AreNumberedInTheOrderOfTheirVertices) {
   EXPECT_EQ(layout.report.cluster_nodes, layout.node_count);
 }
 
-TEST(Clusters, MemoryFollowsTheAreaInsteadOfTheTessellation) {
-  std::vector<double> nodes;
-  for (const std::uint32_t n : {64u, 128u, 256u}) {
-    const Mesh mesh = testing::sphere(n, 1);
-    nodes.push_back(layout_of(testing::one_instance(mesh), 0.4f).node_count);
-    EXPECT_LT(nodes.back(), 2.0 * mesh.positions.size());
-  }
-  EXPECT_NEAR(nodes[1] / nodes[0], 1, 0.3);
-  EXPECT_NEAR(nodes[2] / nodes[1], 1, 0.1);
-}
-
 TEST(Clusters, RoundingErrorsAtRoundCoordinatesAndAnglesDoNotSplitClusters) {
   // A floor at the height of a multiple of the cell, and a roof of 45 degrees, without and with noise.
   for (const float slope : {0.0f, 1.0f}) {
@@ -231,25 +220,6 @@ TEST(Clusters, RoundingErrorsAtRoundCoordinatesAndAnglesDoNotSplitClusters) {
     }
     EXPECT_EQ(nodes[0], nodes[1]);
   }
-}
-
-TEST(Clusters, TheTwoSidesOfAThinWallShareNoClusters) {
-  // A box of 2 x 2 x 0.01: cells contain both faces, normals separate them.
-  Mesh mesh = testing::grid(40, 2);
-  const auto half = static_cast<std::uint32_t>(mesh.positions.size());
-  const std::size_t triangles = mesh.triangles.size();
-  for (std::uint32_t v = 0; v < half; ++v)
-    mesh.positions.push_back({mesh.positions[v][0], mesh.positions[v][1], 0.01f});
-  for (std::size_t t = 0; t < triangles; ++t) {
-    const auto [a, b, c] = mesh.triangles[t];
-    mesh.triangles.push_back({a + half, c + half, b + half});
-  }
-  const GateLayout layout = layout_of(testing::one_instance(mesh), 0.5f);
-  std::set<std::uint32_t> below;
-  std::set<std::uint32_t> above;
-  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
-    for (std::uint32_t c = 0; c < 3; ++c) (t < triangles ? below : above).insert(corner(layout, t, c));
-  for (const std::uint32_t cluster : below) EXPECT_FALSE(above.contains(cluster));
 }
 
 TEST(Clusters, BothSidesShareATableAndHaveSeparateBases) {
@@ -275,15 +245,6 @@ TEST(Clusters, InstancesInOneCellShareNoClusters) {
   EXPECT_EQ(layout.report.clustered_surfaces, 3u);
   EXPECT_EQ(layout.node_count, 3 * alone.node_count);
   EXPECT_LE(alone.node_count, 2u * 6);
-}
-
-TEST(Clusters, NothingIsClusteredWhereEveryVertexWouldBeACluster) {
-  const Mesh mesh = testing::grid(10, 10);  // triangles of the spacing's size: R is 1, cells are smaller
-  const GateLayout layout = layout_of(testing::one_instance(mesh), 1.0f);
-  EXPECT_EQ(layout.levels[0].resolution, 1u);
-  EXPECT_EQ(layout.report.clustered_surfaces, 0u);
-  EXPECT_EQ(layout.report.cluster_nodes, 0u);
-  EXPECT_EQ(layout.report.vertex_nodes, 2 * mesh.positions.size());
 }
 
 TEST(Clusters, AreMadeOnlyWhereTheOptionsAllowThem) {

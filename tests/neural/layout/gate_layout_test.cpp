@@ -347,18 +347,5 @@ TEST(GateLayout, InvalidSurfacesAreRefusedByName) {
   }
 }
 
-TEST(GateLayout, MoreThan32BitsOfNodesAreRefused) {
-  const Mesh mesh = testing::grid(32, 1);  // 2048 triangles: 4.2 million nodes at R = 64
-  SurfaceLayout scene = testing::one_instance(mesh, Sides::both);
-  scene.instances.resize(600, scene.instances[0]);
-  for (const NodeStorage storage : {NodeStorage::shared, NodeStorage::per_triangle}) {
-    expect_refusal<BadConfiguration>([&] { build_gate_layout(scene, testing::fixed_options(64, storage)); },
-                                     {"2^32-1"});
-  }
-  scene.instances.resize(500);
-  const GateLayout layout = build_gate_layout(scene, testing::fixed_options(64));
-  EXPECT_EQ(layout.node_count, 1000u * (33 * 33 + 63 * (2 * 32 * 33 + 32 * 32) + 1953 * 2048));
-}
-
 }  // namespace
 }  // namespace gatelight::neural

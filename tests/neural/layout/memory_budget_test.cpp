@@ -275,21 +275,6 @@ TEST(MemoryBudget, AScaleOfAllInstancesScalesTheSpacing) {
   }
 }
 
-TEST(MemoryBudget, OneMegabyteHoldsTensOfThousandsOfInstances) {
-  const Mesh mesh = testing::sphere(8, 0.5f);
-  const SurfaceLayout scene = many_instances(mesh, 40000);
-  GateOptions options{.memory_budget = kMegabyte};
-  const GateLayout layout = build_gate_layout(scene, options);
-  EXPECT_LE(testing::feature_bytes(layout, options), kMegabyte);
-  EXPECT_GE(testing::feature_bytes(layout, options), 0.9 * kMegabyte);
-  // Instances share nodes where they are near, and no node is out of range.
-  for (std::uint32_t surface = 0; surface < layout.surfaces.size(); surface += 777)
-    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-      const auto sample = gate_lookup(layout, surface, 1, t, std::array{0.2, 0.3, 0.5});
-      for (const std::uint32_t node : sample->nodes) EXPECT_LT(node, layout.node_count);
-    }
-}
-
 TEST(MemoryBudget, TheLeastBudgetIsNamedAndAccepted) {
   const Scene scene;
   std::vector<GateOptions> all(8);

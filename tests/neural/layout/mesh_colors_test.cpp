@@ -287,19 +287,5 @@ TEST(MeshColorEdges, ALoopOfATriangleWithEqualCornersHasNodesOfItsOwn) {
   }
 }
 
-TEST(MeshColorEdges, FloatAndDoubleLookUpTheSameValues) {
-  const Mesh mesh = testing::grid(4, 1);
-  const GateLayout layout = build_gate_layout(testing::one_instance(mesh), testing::fixed_options(5));
-  for (std::uint32_t n = 0; n < 5000; ++n) {
-    const std::uint32_t triangle = static_cast<std::uint32_t>(mix_bits(n) % mesh.triangles.size());
-    const auto b = testing::random_barycentrics(5, n);
-    const auto sample = gate_lookup(layout, 0, 0, triangle, to<float>(b));
-    double value = 0;
-    for (int t = 0; t < 3; ++t)
-      value += static_cast<double>(sample->weights[t]) * node_value(sample->nodes[t]);
-    EXPECT_NEAR(value, field(layout, triangle, b), 1e-5);
-  }
-}
-
 }  // namespace
 }  // namespace gatelight::neural

@@ -176,21 +176,5 @@ TEST(Resolution, LevelsOfTheStackAreAdaptiveOrFixed) {
   EXPECT_EQ(layout.report.resolution_histogram[3], 1u);
 }
 
-TEST(Resolution, DoesNotDependOnTheUnitOfLength) {
-  const Mesh mesh = testing::sphere(24, 1.7f);
-  for (const ResolutionRule rule : {ResolutionRule::uniform, ResolutionRule::paper}) {
-    GateOptions options = options_of(rule);
-    options.node_spacing = 0.043f;
-    const GateLayout once = build_gate_layout(testing::one_instance(mesh), options);
-    for (const float scale : {1e-3f, 1e6f}) {
-      GateOptions scaled = options;
-      scaled.node_spacing *= scale;
-      const SurfaceLayout scene = {{testing::view(mesh)},
-                                   {{0, testing::scaling(scale, scale, scale), Sides::front}}};
-      testing::expect_same_tables(once, build_gate_layout(scene, scaled));
-    }
-  }
-}
-
 }  // namespace
 }  // namespace gatelight::neural

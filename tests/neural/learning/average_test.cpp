@@ -18,12 +18,9 @@ double averaged(const AverageOptions& options, std::uint64_t t, double average, 
   return average + average_rate(options, t) * (parameter - average);
 }
 
-TEST(Average, FirstStepCopies) {
-  EXPECT_EQ(average_rate({}, 1), 1.0);
-}
-
 TEST(Average, RateFallsFromOneToItsLimit) {
   const AverageOptions options;  // 0.99, 10
+  EXPECT_EQ(average_rate(options, 1), 1.0) << "the first step copies";
   EXPECT_DOUBLE_EQ(average_rate(options, 2), 1 / 1.1);
   EXPECT_DOUBLE_EQ(average_rate(options, 11), 0.5);
   EXPECT_NEAR(average_rate(options, 990), 1 / 99.9, 1e-15);

@@ -64,13 +64,6 @@ TEST(ReferenceBackend, OptionsOutOfRangeAreRefused) {
     change(options);
     EXPECT_THROW(make_reference_backend(model, options), BadConfiguration);
   };
-  refuses([](TrainingOptions& o) { o.adam.beta1 = 1; });
-  refuses([](TrainingOptions& o) { o.adam.beta2 = -0.1f; });
-  refuses([](TrainingOptions& o) { o.adam.epsilon = 0; });
-  refuses([](TrainingOptions& o) { o.adam.learning_rate = std::nanf(""); });
-  refuses([](TrainingOptions& o) { o.adam.decay_steps = -1; });
-  refuses([](TrainingOptions& o) { o.adam.l2_network = -1; });
-  refuses([](TrainingOptions& o) { o.average.decay = 1; });
   refuses([](TrainingOptions& o) { o.average.ramp = 0; });
   refuses([](TrainingOptions& o) { o.max_target = 0; });
   refuses([](TrainingOptions& o) { o.feature_step = FeatureStep::per_triangle; });  // no triangles in a grid
@@ -99,21 +92,6 @@ TEST(ReferenceBackend, BadRecordsAreCountedAndNeverReachTheState) {
     }
     EXPECT_GT(rejected, 0u);
     EXPECT_GT(clipped, 0u);
-  }
-}
-
-TEST(ReferenceBackend, BatchWithoutAnAcceptedRecordChangesNothing) {
-  for (const char* name : kCases) {
-    const auto model = find_model_case(name).model;
-    const auto backend = make_reference_backend(model, {});
-    const ModelState state = backend->export_state();
-    const OwnedBatch bad = make_batch(*model, 30, 1, {.nonfinite = 1});
-    const StepStatistics statistics = backend->train(bad.training());
-    EXPECT_EQ(statistics.rejected, 30u);
-    EXPECT_EQ(statistics.records, 0u);
-    EXPECT_EQ(statistics.loss, 0.0);
-    backend->train(make_batch(*model, 0, 1).training());
-    EXPECT_EQ(backend->export_state(), state);
   }
 }
 
@@ -211,33 +189,6 @@ TEST(ReferenceBackend, CountsEachTriangleOnceAStep) {
 TEST(ReferenceBackend, AnswersAreClampedToTheirRange) {
   testing::expect_clamped_answers(*make_reference_backend(find_model_case("nrc").model, {}),
                                   QueryPrecision::fp32);
-}
-
-TEST(ReferenceBackend, QueriesOfBadPointsAnswerFiniteNumbers) {
-  for (const char* name : kCases) {
-    const auto model = find_model_case(name).model;
-    const auto backend = make_reference_backend(model, {});
-    const OwnedBatch points =
-        make_batch(*model, 300, 3, {.nonfinite = 0.5f, .unstored = 0.3f, .border = 0.5f});
-    for (const float answer : answers(*backend, *model, points, {})) {
-      EXPECT_TRUE(std::isfinite(answer));
-      EXPECT_GE(answer, 0.0f);
-    }
-  }
-}
-
-TEST(ReferenceBackend, EveryConfigurationTrainsAndStaysFinite) {
-  for (const auto& [name, config] : testing::all_model_configs()) {
-    const auto model = testing::make_case(name, config).model;
-    const auto backend = make_reference_backend(model, {});
-    const OwnedBatch batch = make_batch(*model, 8, 5, {.border = 0.2f});
-    const StepStatistics statistics = backend->train(batch.training());
-    EXPECT_EQ(statistics.records, 8u) << name;
-    EXPECT_EQ(statistics.skipped_updates, 0u) << name;
-    EXPECT_EQ(statistics.touched_nodes > 0, config.encoding != FeatureEncoding::none) << name;
-    for (const float answer : answers(*backend, *model, batch, {}))
-      EXPECT_TRUE(std::isfinite(answer)) << name;
-  }
 }
 
 }  // namespace

@@ -46,12 +46,6 @@ TEST_F(VulkanFailures, TooLittleMemoryIsReportedWithTheDevice) {
                  {vulkan::machine_name(*test_machine()), "MiB"});
 }
 
-TEST_F(VulkanFailures, MissingDevicesAreRefused) {
-  vulkan::MachineOptions options{.device = "99"};
-  expect_message(refusal<Unavailable>([&] { vulkan::open_machine(options); }),
-                 {"99", vulkan::machine_name(*test_machine())});
-}
-
 // A buffer of zero bytes is invalid, but harmless.
 TEST_F(VulkanFailures, AMessageOfTheValidationLayerFailsTheNextStep) {
   vulkan::MachineOptions options{.validate = true,

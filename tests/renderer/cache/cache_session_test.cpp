@@ -1,4 +1,4 @@
-// Training of a cache: its counts, when it stops, and that threads and interruptions change no bit.
+// Training of a cache: its counts and when it stops.
 
 #include "renderer/cache/cache_session.h"
 
@@ -18,7 +18,6 @@ namespace {
 using testing::SceneBuilder;
 using testing::view_from;
 using testing::ViewedWorld;
-using testing::with_threads;
 
 /// A room of two materials with a lamp, a mirror and a glossy ball: everything that a batch may meet.
 SceneBuilder room() {
@@ -35,68 +34,6 @@ SceneBuilder room() {
   builder.sphere(builder.material(metal), Vec3(0.8f, 0.6f, 0), 0.6f, 16, true);
   builder.scene().cameras.push_back(view_from(Vec3(0, 1.2f, 1.8f), Vec3(0, 1, -1)));
   return builder;
-}
-
-TEST(CacheSession, AnyNumberOfThreadsLearnsTheSameBits) {
-  const ViewedWorld viewed(room());
-  for (const Integrator integrator : {Integrator::nrc, Integrator::nao}) {
-    RenderOptions options = small_session(integrator);
-    options.max_depth = 6;
-    options.cache.candidates = 4;
-    options.cache.self_training.start_step = 3;
-    CacheState states[3];
-    std::vector<float> answers[3];
-    const int threads[] = {1, 2, 7};
-    for (std::size_t i = 0; i < 3; ++i) {
-      with_threads(threads[i], [&] {
-        CacheSession session(viewed.world, viewed.camera, viewed.region, options);
-        session.train(8, {});
-        states[i] = session.export_state();
-        answers[i] = answers_of(session, seen_points(viewed, session));
-      });
-    }
-    for (const std::size_t i : {std::size_t{1}, std::size_t{2}}) {
-      EXPECT_TRUE(testing::same_bits(states[0], states[i]));
-      EXPECT_TRUE(same_bits(answers[0], answers[i]));
-    }
-  }
-}
-
-TEST(CacheSession, InterruptedAndContinuedElsewhereItLearnsTheSameBits) {
-  const ViewedWorld viewed(room());
-  RenderOptions options = small_session(Integrator::nrc);
-  options.max_depth = 6;
-  options.cache.candidates = 4;
-  options.cache.self_training.start_step = 3;
-  CacheSession whole(viewed.world, viewed.camera, viewed.region, options);
-  whole.train(13, {});
-  CacheSession begun(viewed.world, viewed.camera, viewed.region, options);
-  CacheSession::Watch watch;
-  watch.stop = [&] { return begun.steps() >= 3; };
-  begun.train(13, watch);
-  const CacheState half = begun.export_state();
-  EXPECT_EQ(half.steps, 4u) << "it is stopped at the end of a group";
-  CacheSession continued(viewed.world, viewed.camera, viewed.region, options, &half.setup);
-  EXPECT_EQ(continued.rays().camera, 0u) << "a given setup is not scouted for again";
-  continued.import_state(half);
-  EXPECT_EQ(continued.steps(), 4u);
-  continued.train(13, {});
-  EXPECT_TRUE(testing::same_bits(whole.export_state(), continued.export_state()));
-  begun.train(13, {});
-  EXPECT_TRUE(testing::same_bits(whole.export_state(), begun.export_state()));
-}
-
-TEST(CacheSession, SeedsLearnDifferently) {
-  const ViewedWorld viewed(testing::closed_furnace(0.6f, 1.0f));
-  RenderOptions options = small_session(Integrator::nrc);
-  CacheState states[2];
-  for (const std::uint32_t seed : {0u, 1u}) {
-    options.seed = seed;
-    CacheSession session(viewed.world, viewed.camera, viewed.region, options);
-    session.train(2, {});
-    states[seed] = session.export_state();
-  }
-  EXPECT_FALSE(same_bits(states[0].model.parameters, states[1].model.parameters));
 }
 
 TEST(CacheSession, ItStopsOnRequestOrOutOfTime) {

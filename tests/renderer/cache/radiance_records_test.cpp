@@ -135,16 +135,6 @@ TEST(RadianceRecords, BatchesShareTheRecordsInTurn) {
   }
 }
 
-TEST(RadianceRecords, TargetsAreScaled) {
-  const ViewedWorld viewed(room());
-  const RenderOptions options;
-  const MadeRecords one(viewed, options, {.step = 1, .points = 300});
-  const MadeRecords four(viewed, options, {.step = 1, .points = 300, .target_scale = 4.0f});
-  ASSERT_EQ(one.batch.targets.size(), four.batch.targets.size());
-  for (std::size_t i = 0; i < one.batch.targets.size(); ++i)
-    ASSERT_EQ(4.0f * one.batch.targets[i], four.batch.targets[i]);
-}
-
 TEST(RadianceRecords, ShortPathsEndAfterTheirRecordsAndSomeRunOn) {
   const ViewedWorld viewed(testing::closed_furnace(0.5f, 1.0f));
   RenderOptions options;
@@ -165,17 +155,6 @@ TEST(RadianceRecords, ShortPathsEndAfterTheirRecordsAndSomeRunOn) {
       const auto short_records = static_cast<std::size_t>(vertices) * queries_of(made.batch);
       EXPECT_EQ(made.batch.records.size(), short_records + kUnroulettedEvents * full);
     }
-  }
-}
-
-TEST(RadianceRecords, PathsOfGivenLengthWriteARecordOnlyAtTheirFirstVertex) {
-  const ViewedWorld viewed(testing::closed_furnace(0.5f, 1.0f));
-  RenderOptions options;
-  options.min_depth = 64;
-  for (const int length : {1, 4, 7}) {
-    options.cache.path_length = length;
-    const MadeRecords made(viewed, options, {.step = 1, .points = 200});
-    EXPECT_EQ(made.batch.records.size(), made.batch.paths_traced);
   }
 }
 

@@ -148,34 +148,6 @@ TEST(SceneCacheFile, ForeignFilesAreRefused) {
   expect_refusal<CacheFileError>([&] { CacheFile(folder.write("text", "no cache")); }, {"/text"});
 }
 
-TEST(SceneCacheFile, EveryChangedByteAndEveryTruncationIsRefused) {
-  const TemporaryFolder folder;
-  const auto model = small_model();
-  const CacheState state = any_cache_state(*model, {}, 1);
-  write_cache_file(folder / "a", state, *model, {}, {kNrc}, kScene);
-  const std::string bytes = read_file(folder / "a");
-  const auto opening = [&](const std::string& content) {
-    std::filesystem::remove(folder / "b");
-    folder.write("b", content);
-    return refusal<CacheFileError>([&] { CacheFile(folder / "b"); });
-  };
-  ASSERT_EQ(opening(bytes), "");
-  for (std::size_t place = 0; place < bytes.size(); ++place) {
-    const auto put = [&](int byte) {
-      std::fstream(folder / "b", std::ios::binary | std::ios::in | std::ios::out)
-          .seekp(static_cast<std::streamoff>(place))
-          .put(static_cast<char>(byte));
-    };
-    put(bytes[place] ^ 1 << place % 8);
-    ASSERT_NE(refusal<CacheFileError>([&] { CacheFile(folder / "b"); }), "")
-        << "byte " << place << " of " << bytes.size();
-    put(bytes[place]);
-  }
-  for (std::size_t size = 0; size < bytes.size(); size += 97)
-    ASSERT_NE(opening(bytes.substr(0, size)), "") << size;
-  expect_message(opening(bytes + '\0'), {"/b"});
-}
-
 TEST(SceneCacheFile, AnotherVersionAndAFileWithoutADigestAreRefused) {
   const TemporaryFolder folder;
   const auto model = small_model();

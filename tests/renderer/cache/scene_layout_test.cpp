@@ -162,14 +162,5 @@ INSTANTIATE_TEST_SUITE_P(All, SidesOfKinds,
                                   (kind.param.glass ? "Glass" : "");
                          });
 
-TEST(SurfaceLayout, HasSideReadsTheBitOfTheSide) {
-  EXPECT_FALSE(has_side(neural::Sides::none, 0));
-  EXPECT_TRUE(has_side(neural::Sides::front, 0));
-  EXPECT_FALSE(has_side(neural::Sides::front, 1));
-  EXPECT_TRUE(has_side(neural::Sides::back, 1));
-  EXPECT_FALSE(has_side(neural::Sides::back, 0));
-  EXPECT_TRUE(has_side(neural::Sides::both, 0) && has_side(neural::Sides::both, 1));
-}
-
 }  // namespace
 }  // namespace gatelight::renderer

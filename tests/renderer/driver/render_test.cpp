@@ -41,19 +41,6 @@ TEST(Render, AnyNumberOfThreadsGivesTheSameBitsAndCountsRaysOnce) {
   }
 }
 
-TEST(Render, SeedsAndSamplersDiffer) {
-  const scene::Scene s = room();
-  RenderOptions options = small_picture();
-  const Picture a = Renderer(s, options).render();
-  options.seed = 1;
-  const Picture b = Renderer(s, options).render();
-  options.seed = 0;
-  options.sampler = SamplerKind::independent;
-  const Picture c = Renderer(s, options).render();
-  EXPECT_NE(a.layers[0].values, b.layers[0].values);
-  EXPECT_NE(a.layers[0].values, c.layers[0].values);
-}
-
 TEST(Render, ARegionIsThatPartOfTheWhole) {
   const scene::Scene s = room();
   RenderOptions options = small_picture();
@@ -113,32 +100,6 @@ TEST(Render, InstancedEqualsFlattened) {
   }
   EXPECT_LT(different, va.size() / 20);
   EXPECT_NEAR(sum_a, sum_b, 0.01 * sum_a);
-}
-
-TEST(Render, RefusesOptionsThatDoNotFitTheScene) {
-  const scene::Scene s = room();
-  RenderOptions options = small_picture();
-  options.region = {{0, 0, 51, 40}};
-  EXPECT_THROW(Renderer(s, options), BadOption);
-  options = small_picture();
-  options.camera = {};
-  options.camera.name = "missing";
-  EXPECT_THROW(Renderer(s, options), BadOption);
-  options = small_picture();
-  options.memory_limit_bytes = 1000;
-  EXPECT_THROW(Renderer(s, options), OutOfMemory);
-}
-
-TEST(Render, AnEmptySceneShowsTheSky) {
-  const scene::Scene empty;
-  RenderOptions options;
-  options.width = options.height = 20;
-  options.spp = 2;
-  options.environment.constant = Color(0.25f, 0.5f, 1.0f);
-  const Picture picture = Renderer(empty, options).render();
-  for (std::size_t i = 0; i < picture.layers[0].values.size(); ++i) {
-    ASSERT_EQ(picture.layers[0].values[i], (std::array{0.25f, 0.5f, 1.0f})[i % 3]);
-  }
 }
 
 TEST(Render, TheFirst16NonFiniteSamplesAreLocatedWhateverThreadTracesThem) {

@@ -36,6 +36,7 @@ const std::vector<Change>& changes() {
   static const std::vector<Change> all = {
       {"size", [](RenderOptions& o) { o.width = 40; }},
       {"samples and seed", [](RenderOptions& o) { o.spp = 3, o.seed = 7; }},
+      {"sampler", [](RenderOptions& o) { o.sampler = SamplerKind::independent; }},
       {"environment", [](RenderOptions& o) { o.environment = {.constant = Color(1.0f, 2.0f, 3.0f)}; }},
       {"sky", [](RenderOptions& o) { o.environment = {.sky = SkyOptions{}}; }},
       {"its rotation", [](RenderOptions& o) { o.environment.rotation_degrees = 40.0f; }},

@@ -231,28 +231,5 @@ TEST(CacheFiles, ACheckpointContinuesWithALoadedCache) {
   }
 }
 
-TEST(CacheFiles, ACacheOfAnotherKindOrSceneIsRefused) {
-  scene::Scene s = room();
-  const TemporaryFolder folder;
-  RenderOptions options = picture_of(Integrator::nrc);
-  options.cache.cache_out = folder / "a";
-  result_of(s, options);
-  options.cache.cache_in = options.cache.cache_out;
-  options.cache.cache_out.clear();
-  const auto loading = [&](const std::function<void(RenderOptions&)>& change) {
-    RenderOptions other = options;
-    change(other);
-    return refusal<CacheFileError>([&] { result_of(s, other); });
-  };
-  expect_message(loading([](RenderOptions& o) { o.cache.component = CachedComponent::all; }),
-                 {"cache-holds", "no-delta", "all"});
-  expect_message(loading([](RenderOptions& o) { o.cache.mlp.width = 32; }), {"hidden width", "16", "32"});
-  expect_message(loading([](RenderOptions& o) { o.cache.gate.features = 4; }), {"features", "8", "4"});
-  s.meshes[0].positions[0].x() += 0.1f;
-  expect_refusal<CacheFileError>([&] { result_of(s, options); }, {"geometry"});
-  options.cache.cache_out = (folder / "none" / "a").string();
-  EXPECT_THROW(result_of(room(), options), OutputError);
-}
-
 }  // namespace
 }  // namespace gatelight::renderer
