@@ -62,11 +62,7 @@ TEST_F(Frames, AreTheSameForAnyThreadsAndAfterAResume) {
   EXPECT_FALSE(std::filesystem::exists(path("b-3.exr"))) << "the state says that it is done";
 }
 
-TEST_F(Frames, GoOnFromTheCacheOfTheFrameBefore) {
-  go_on();
-}
-
-TEST_F(Frames, GoOnWithStepsThatAreChosen) {
+TEST_F(Frames, GoOnFromTheCacheOfTheFrameBeforeWithStepsThatAreChosen) {
   steps_.clear();
   const std::string printed = go_on();
   // 2^18 records are the least of a still, in batches of 2048.

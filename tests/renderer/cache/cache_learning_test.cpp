@@ -142,17 +142,5 @@ TEST(CacheLearning, OcclusionIsLearnedAndStaysWithinOne) {
   }
 }
 
-TEST(CacheLearning, LearningRatesBeyondAllBoundsAreAnErrorAndAnswersStayFinite) {
-  const ViewedWorld viewed(testing::closed_furnace(0.6f, 1.0f));
-  for (const float rate : {1e3f, 1e20f}) {
-    RenderOptions options = small_session(Integrator::nrc);
-    options.cache.batch = 512;
-    options.cache.training.adam.learning_rate = rate;
-    CacheSession session(viewed.world, viewed.camera, viewed.region, options);
-    EXPECT_THROW(session.train(150, {}), TrainingDiverged) << rate;
-    for (const float a : answers_of(session, seen_points(viewed, session))) ASSERT_TRUE(std::isfinite(a));
-  }
-}
-
 }  // namespace
 }  // namespace gatelight::renderer

@@ -160,25 +160,6 @@ TEST(CacheSession, TrianglesAreCountedOnlyWhereTheCountsAreUsed) {
   EXPECT_FALSE(counted(1, {}, neural::FeatureEncoding::hash_grid));
 }
 
-TEST(CacheSession, WithoutTrainingRecordsItStillRuns) {
-  SceneBuilder builder;
-  builder.scene().cameras.push_back(view_from(Vec3(0, 0, 5), Vec3::Zero()));
-  const ViewedWorld viewed(builder, {.constant = Color::Ones()});
-  for (const Integrator integrator : {Integrator::nrc, Integrator::nao}) {
-    for (const auto encoding : {neural::FeatureEncoding::gate, neural::FeatureEncoding::hash_grid}) {
-      RenderOptions options = small_session(integrator);
-      options.cache.encoding = encoding;
-      options.cache.hash_grid.log2_table_size = 8;
-      options.cache.batch = 64;
-      CacheSession session(viewed.world, viewed.camera, viewed.region, options);
-      session.train(3, {});
-      EXPECT_EQ(session.steps(), 3u);
-      EXPECT_EQ(session.statistics().records, 0u);
-      EXPECT_TRUE(answers_of(session, SurfacePoints(session.inputs())).empty());
-    }
-  }
-}
-
 TEST(CacheSession, InvalidModelsAndDevicesAreRefused) {
   const ViewedWorld viewed(testing::closed_furnace(0.6f, 1.0f));
   RenderOptions options = small_session(Integrator::nrc);

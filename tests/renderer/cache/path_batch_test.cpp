@@ -105,19 +105,6 @@ TEST(PathBatch, FirstHitsGetTheCacheRadianceOfEachPath) {
   EXPECT_TRUE(is(2, Color(1.0f, 4.0f, 2.0f))) << hits[2].cache_radiance.transpose();
 }
 
-TEST(PathBatch, RadianceIsOptional) {
-  PathBatch batch;
-  batch.begin(1);
-  PathVertex wall;
-  wall.reflectance = Color(0.5f, 0.5f, 0.5f);
-  wall.record = 0;
-  batch.vertices.push_back(wall);
-  push_point(batch.records, 1);
-  batch.targets = {1.0f, 2.0f, 3.0f};
-  batch.resolve({}, {});
-  EXPECT_TRUE((target(batch, 0) == Color(2.0f, 4.0f, 6.0f)).all());
-}
-
 /// Records given by their triangles, each with 3 targets of its number.
 PathBatch recorded(const std::vector<std::uint32_t>& triangles, std::vector<std::int32_t> first_records) {
   PathBatch batch;
@@ -137,20 +124,6 @@ std::vector<std::uint32_t> triangles_of(const PathBatch& batch) {
 }
 
 TEST(PathBatch, FirstRecordsOfAPointBecomeTheirMeanAndOthersKeepTheirOrder) {
-  // Two points, three paths each: the first leaves records 0 1, 2 3, 4; the second 5, none, 6 7.
-  PathBatch batch =
-      recorded({10, 100, 10, 101, 10, 20, 20, 102}, std::vector<std::int32_t>{0, 2, 4, 5, kNone, 6});
-  batch.average_first_records(3);
-  EXPECT_EQ(triangles_of(batch), (std::vector<std::uint32_t>{10, 100, 101, 20, 102}));
-  const float expected[] = {(0.0f + 4.0f + 16.0f) / 3.0f, 1.0f, 9.0f, (25.0f + 36.0f) / 2.0f, 49.0f};
-  ASSERT_EQ(batch.targets.size(), 15u);
-  for (std::size_t i = 0; i < 5; ++i) {
-    for (std::size_t c = 0; c < 3; ++c)
-      EXPECT_FLOAT_EQ(batch.targets[3 * i + c], expected[i] + static_cast<float>(c)) << i;
-  }
-}
-
-TEST(PathBatch, FirstRecordsAreAveragedOnlyAtTheSamePoint) {
   struct Row {
     const char* name;
     std::vector<std::uint32_t> triangles;
@@ -160,6 +133,13 @@ TEST(PathBatch, FirstRecordsAreAveragedOnlyAtTheSamePoint) {
     std::vector<float> means;
   };
   const Row rows[] = {
+      // Two points: the first leaves records 0 1, 2 3, 4; the second 5, none, 6 7.
+      {"others between them",
+       {10, 100, 10, 101, 10, 20, 20, 102},
+       {0, 2, 4, 5, kNone, 6},
+       3,
+       {10, 100, 101, 20, 102},
+       {20.0f / 3.0f, 1.0f, 9.0f, 61.0f / 2.0f, 49.0f}},
       {"the first path left none", {10, 10}, {kNone, 0, 1}, 3, {10}, {0.5f}},
       {"two were reflected, two refracted", {10, 20, 10, 20}, {0, 1, 2, 3}, 4, {10, 20}, {2.0f, 5.0f}},
       {"one path a point", {1, 2, 3}, {0, kNone, 2}, 1, {1, 2, 3}, {0.0f, 1.0f, 4.0f}}};
@@ -168,7 +148,9 @@ TEST(PathBatch, FirstRecordsAreAveragedOnlyAtTheSamePoint) {
     PathBatch batch = recorded(row.triangles, row.first_records);
     batch.average_first_records(row.paths);
     EXPECT_EQ(triangles_of(batch), row.left);
-    for (std::size_t i = 0; i < row.means.size(); ++i) EXPECT_FLOAT_EQ(batch.targets[3 * i], row.means[i]);
+    ASSERT_EQ(batch.targets.size(), 3 * row.means.size());
+    for (std::size_t i = 0; i < batch.targets.size(); ++i)
+      EXPECT_FLOAT_EQ(batch.targets[i], row.means[i / 3] + static_cast<float>(i % 3));
   }
 }
 

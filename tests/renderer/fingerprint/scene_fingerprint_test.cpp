@@ -5,7 +5,6 @@
 
 #include <functional>
 
-#include "scene/gltf.h"
 #include "tests/support/messages.h"
 #include "tests/support/scene_builder.h"
 #include "tests/support/temporary_folder.h"
@@ -160,14 +159,6 @@ TEST(SceneFingerprint, ThreadsAndASecondCopyChangeNothing) {
     const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
     EXPECT_EQ(compute_scene_fingerprint(copy, {}), first);
   }
-}
-
-TEST(SceneFingerprint, AFileLoadedTwiceIsTheSame) {
-  const std::string file = GATELIGHT_SOURCE_DIR "/data/material-grid.glb";
-  const SceneFingerprint a = compute_scene_fingerprint(scene::load_gltf(file), {});
-  EXPECT_EQ(compute_scene_fingerprint(scene::load_gltf(file), {}), a);
-  ASSERT_EQ(a.size(), 5u);
-  for (const NamedText& part : a) EXPECT_EQ(part.text.size(), 32u) << part.name;
 }
 
 }  // namespace
