@@ -10,8 +10,7 @@
 #include "neural/layout/build_gate_layout.h"
 #include "renderer/cache/scene_layout.h"
 #include "renderer/cache/training_points.h"
-#include "renderer/transport/world.h"
-#include "tests/support/scene_builder.h"
+#include "tests/renderer/cache/small_worlds.h"
 #include "tests/support/statistics.h"
 
 namespace gatelight::renderer {
@@ -19,16 +18,9 @@ namespace {
 
 using testing::Moments;
 using testing::SceneBuilder;
+using testing::ViewedWorld;
 
 const double kSignificance = testing::sidak(1e-4, 20);
-constexpr PixelRect kRegion{0, 0, 64, 48};
-
-scene::Camera view() {
-  scene::Camera camera;
-  camera.vertical_fov = 0.9f;
-  return camera;
-}
-
 TEST(TrainingPointsStat, SurfacesAreChosenByAreaSidesEquallyAndDirectionsByCosine) {
   SceneBuilder builder;
   const int matte = builder.material(SceneBuilder::lambert(Color::Constant(0.5f)));
@@ -49,14 +41,14 @@ TEST(TrainingPointsStat, SurfacesAreChosenByAreaSidesEquallyAndDirectionsByCosin
   mirrored.swaps_handedness = true;
   mirrored.transform.scale(Vec3(-1.5f, 2, 1));
   builder.quad(matte, Vec3(0, 0, 5), Vec3(9, 0, 0), Vec3(0, 9, 0));
-  const scene::Scene& scene = builder.scene();
-  const World world(scene);
-  const Camera camera(view(), 64, 48);
+  builder.scene().cameras.emplace_back();
+  const ViewedWorld viewed(builder);
+  const scene::Scene& scene = viewed.world.scene;
   RenderOptions options;
   options.sampler = SamplerKind::independent;
   options.cache.source = TrainingSource::surface;
   const std::vector<neural::Sides> sides{neural::Sides::both, neural::Sides::back, neural::Sides::none};
-  const TrainingPoints points(world, camera, kRegion, options, sides, nullptr);
+  const TrainingPoints points(viewed.world, viewed.camera, viewed.region, options, sides, nullptr);
 
   constexpr std::size_t kCount = 40000;
   TrainingStarts starts;
@@ -82,7 +74,7 @@ TEST(TrainingPointsStat, SurfacesAreChosenByAreaSidesEquallyAndDirectionsByCosin
   for (std::size_t i = 0; i < kCount; ++i) {
     const Hit& hit = starts.hits[i];
     const Vec3 direction = starts.starts[i].sample.camera_ray.ray.direction;
-    const Surface surface = world.surfaces.at(hit, direction, 0.0f, 0.5f);
+    const Surface surface = viewed.world.surfaces.at(hit, direction, 0.0f, 0.5f);
     const std::uint32_t side = side_of(surface.front, hit.instance == 1);
     ++met[{hit.instance, hit.primitive, side}];
     // The four triangles between the middles of the edges have the same area.
@@ -108,30 +100,28 @@ TEST(TrainingPointsStat, SurfacesAreChosenByAreaSidesEquallyAndDirectionsByCosin
   EXPECT_TRUE(testing::accepts(testing::chi_square_test(cosine, tenths), kSignificance));
 }
 
-/// Four strips of a wall before the camera, a quarter of the picture each; the last has no storage.
-struct Strips {
-  Strips() : world(fill()), camera(view(), 64, 48) {
-    sides = {neural::Sides::front, neural::Sides::front, neural::Sides::front, neural::Sides::none};
-    const WeldedMeshes meshes(builder.scene());
-    layout = neural::build_gate_layout(meshes.layout(builder.scene(), sides), {});
-  }
-  const scene::Scene& fill() {
-    const int matte = builder.material(SceneBuilder::lambert(Color::Constant(0.5f)));
-    const float half = 2.0f * std::tan(0.45f) * 64.0f / 48.0f;
-    for (int i = 0; i < 4; ++i) {
-      const float left = half * (0.5f * static_cast<float>(i) - 1.0f);
-      builder.mesh(
-          matte,
-          {{left, -99, -2}, {left + 0.5f * half, -99, -2}, {left, 99, -2}, {left + 0.5f * half, 99, -2}},
-          {{0, 1, 3}, {0, 3, 2}});
-    }
-    return builder.scene();
-  }
+/// Four strips of a wall before the camera, a quarter of the picture each.
+SceneBuilder four_strips() {
   SceneBuilder builder;
-  World world;
-  Camera camera;
-  std::vector<neural::Sides> sides;
-  neural::GateLayout layout;
+  const int matte = builder.material(SceneBuilder::lambert(Color::Constant(0.5f)));
+  const float half = 2.0f * std::tan(0.45f) * 64.0f / 48.0f;
+  for (int i = 0; i < 4; ++i) {
+    const float left = half * (0.5f * static_cast<float>(i) - 1.0f);
+    builder.mesh(
+        matte, {{left, -99, -2}, {left + 0.5f * half, -99, -2}, {left, 99, -2}, {left + 0.5f * half, 99, -2}},
+        {{0, 1, 3}, {0, 3, 2}});
+  }
+  builder.scene().cameras.push_back(testing::view_from(Vec3::Zero(), Vec3(0, 0, -1)));
+  return builder;
+}
+
+/// The last strip has no storage.
+struct Strips {
+  ViewedWorld viewed{four_strips()};
+  std::vector<neural::Sides> sides = {neural::Sides::front, neural::Sides::front, neural::Sides::front,
+                                      neural::Sides::none};
+  neural::GateLayout layout =
+      neural::build_gate_layout(WeldedMeshes(viewed.world.scene).layout(viewed.world.scene, sides), {});
 };
 
 /// The number of starts in each strip.
@@ -139,7 +129,8 @@ std::array<double, 4> chosen_strips(const Strips& strips, int candidates,
                                     std::array<std::uint32_t, 3> trained, std::size_t& made) {
   RenderOptions options;
   options.cache.candidates = candidates;
-  const TrainingPoints points(strips.world, strips.camera, kRegion, options, strips.sides, &strips.layout);
+  const TrainingPoints points(strips.viewed.world, strips.viewed.camera, strips.viewed.region, options,
+                              strips.sides, &strips.layout);
   std::vector<std::uint32_t> counts(strips.layout.triangle_count);
   for (std::uint32_t i = 0; i < 3; ++i) {
     const neural::GateSurface& s = strips.layout.surfaces[neural::surface_index(i, 0)];

@@ -11,40 +11,33 @@
 
 #include "renderer/cache/scene_layout.h"
 #include "renderer/film/film_samples.h"
-#include "renderer/transport/world.h"
-#include "tests/support/scene_builder.h"
+#include "tests/renderer/cache/small_worlds.h"
 
 namespace gatelight::renderer {
 namespace {
 
 using testing::SceneBuilder;
+using testing::ViewedWorld;
 
 constexpr int kWidth = 64;
 constexpr int kHeight = 48;
 
 /// A camera at the origin, looking along -z.
 scene::Camera training_view() {
-  scene::Camera camera;
-  camera.vertical_fov = 0.9f;
-  return camera;
+  return testing::view_from(Vec3::Zero(), Vec3(0, 0, -1));
 }
 
 /// Two walls before the camera: the left half of the picture and the right one.
-struct TwoWalls {
-  TwoWalls() : world(fill()), camera(training_view(), kWidth, kHeight) {}
-
-  const scene::Scene& fill() {
-    const int matte = builder.material(SceneBuilder::lambert(Color::Constant(0.5f)));
-    builder.quad(matte, Vec3(-9, -9, -2), Vec3(9, 0, 0), Vec3(0, 18, 0));
-    builder.quad(matte, Vec3(0, -9, -2), Vec3(9, 0, 0), Vec3(0, 18, 0));
-    return builder.scene();
-  }
+SceneBuilder two_walls() {
   SceneBuilder builder;
-  World world;
-  Camera camera;
-};
+  const int matte = builder.material(SceneBuilder::lambert(Color::Constant(0.5f)));
+  builder.quad(matte, Vec3(-9, -9, -2), Vec3(9, 0, 0), Vec3(0, 18, 0));
+  builder.quad(matte, Vec3(0, -9, -2), Vec3(9, 0, 0), Vec3(0, 18, 0));
+  builder.scene().cameras.push_back(training_view());
+  return builder;
+}
 
-TrainingStarts choose(const TwoWalls& walls, const RenderOptions& options, std::uint64_t step,
+TrainingStarts choose(const ViewedWorld& walls, const RenderOptions& options, std::uint64_t step,
                       std::size_t count, PixelRect region = {0, 0, kWidth, kHeight}, bool need_hits = false,
                       std::uint64_t* traced = nullptr) {
   const std::vector<neural::Sides> sides(2, neural::Sides::front);
@@ -91,7 +84,7 @@ void expect_blocks_cover(const TrainingStarts& starts) {
 }
 
 TEST(TrainingPoints, EachCellOfTheRegionHasOnePoint) {
-  const TwoWalls walls;
+  const ViewedWorld walls(two_walls());
   const RenderOptions options;
   const PixelRect region{8, 4, 40, 28};  // 32 x 24: 16 x 12 cells of 2 x 2 pixels
   for (std::uint64_t step = 0; step < 3; ++step) {
@@ -115,7 +108,7 @@ TEST(TrainingPoints, EachCellOfTheRegionHasOnePoint) {
 }
 
 TEST(TrainingPoints, SamplesOfThePictureAreThoseThatItsPassesWouldTakeNext) {
-  const TwoWalls walls;
+  const ViewedWorld walls(two_walls());
   RenderOptions options;
   options.seed = 5;
   const PixelRect region{8, 4, 40, 28};
@@ -154,7 +147,7 @@ TEST(TrainingPoints, SamplesOfThePictureAreThoseThatItsPassesWouldTakeNext) {
 }
 
 TEST(TrainingPoints, CountsThatFillNoGridAreNearlyKept) {
-  const TwoWalls walls;
+  const ViewedWorld walls(two_walls());
   const RenderOptions options;
   for (const std::size_t count : {1u, 2u, 7u, 100u, 1000u, 5297u}) {
     const auto made = static_cast<double>(choose(walls, options, 0, count).starts.size());
@@ -166,7 +159,7 @@ TEST(TrainingPoints, CountsThatFillNoGridAreNearlyKept) {
 }
 
 TEST(TrainingPoints, TheFractionThatRunsToItsEndIsExactToOne) {
-  const TwoWalls walls;
+  const ViewedWorld walls(two_walls());
   RenderOptions options;
   for (const float fraction : {0.0f, 0.0625f, 0.3f, 1.0f}) {
     options.cache.self_training.full_fraction = fraction;
@@ -181,7 +174,7 @@ TEST(TrainingPoints, TheFractionThatRunsToItsEndIsExactToOne) {
 }
 
 TEST(TrainingPoints, EqualStepsAreEqualAndOthersAreNot) {
-  const TwoWalls walls;
+  const ViewedWorld walls(two_walls());
   for (const TrainingSource source : {TrainingSource::camera, TrainingSource::surface}) {
     RenderOptions options;
     options.cache.source = source;
@@ -204,7 +197,7 @@ TEST(TrainingPoints, EqualStepsAreEqualAndOthersAreNot) {
 }
 
 TEST(TrainingPoints, HitsAreTracedOnRequest) {
-  const TwoWalls walls;
+  const ViewedWorld walls(two_walls());
   const RenderOptions options;
   std::uint64_t traced = 0;
   const TrainingStarts starts = choose(walls, options, 0, 300, {0, 0, kWidth, kHeight}, true, &traced);
@@ -221,7 +214,7 @@ TEST(TrainingPoints, HitsAreTracedOnRequest) {
 }
 
 TEST(TrainingPoints, SamplesOfAPointAreConsecutiveWithKeysOfTheirOwn) {
-  const TwoWalls walls;
+  const ViewedWorld walls(two_walls());
   for (const TrainingSource source : {TrainingSource::camera, TrainingSource::surface}) {
     RenderOptions options;
     options.cache.source = source;
@@ -256,12 +249,12 @@ TEST(TrainingPoints, SurfacePointsLieOnTheirRays) {
   mirrored.swaps_handedness = true;
   mirrored.transform.translate(Vec3(10, 0, 0));
   mirrored.transform.scale(Vec3(-1, 2, 1));
-  const World world(builder.scene());
-  const Camera camera(training_view(), kWidth, kHeight);
+  builder.scene().cameras.push_back(training_view());
+  const ViewedWorld viewed(builder);
   RenderOptions options;
   options.cache.source = TrainingSource::surface;
   const std::vector<neural::Sides> sides{neural::Sides::both, neural::Sides::back};
-  const TrainingPoints points(world, camera, {0, 0, kWidth, kHeight}, options, sides, nullptr);
+  const TrainingPoints points(viewed.world, viewed.camera, viewed.region, options, sides, nullptr);
   TrainingStarts starts;
   RayCounts rays;
   points.choose(0, 500, false, {}, starts, rays);
@@ -273,11 +266,11 @@ TEST(TrainingPoints, SurfacePointsLieOnTheirRays) {
     const Ray& ray = starts.starts[i].sample.camera_ray.ray;
     const Hit& hit = starts.hits[i];
     ASSERT_NEAR(ray.direction.norm(), 1.0f, 1e-5f);
-    const Surface surface = world.surfaces.at(hit, ray.direction, 0.0f, 0.5f);
+    const Surface surface = viewed.world.surfaces.at(hit, ray.direction, 0.0f, 0.5f);
     const Vec3 p = ray.origin + hit.t * ray.direction;
     ASSERT_LT((p - surface.position).norm(), 1e-5f * (1.0f + p.norm()));
     Hit met;
-    world.accel.intersect(std::span(&ray, 1), std::span(&met, 1), false);
+    viewed.world.accel.intersect(std::span(&ray, 1), std::span(&met, 1), false);
     ASSERT_EQ(met.instance, hit.instance);
     ASSERT_EQ(met.primitive, hit.primitive);
     // The side of the hit has storage.
@@ -289,7 +282,7 @@ TEST(TrainingPoints, SurfacePointsLieOnTheirRays) {
 }
 
 TEST(TrainingPoints, WithoutAnySurfaceTheCameraIsTheSource) {
-  const TwoWalls walls;
+  const ViewedWorld walls(two_walls());
   RenderOptions options;
   options.cache.source = TrainingSource::surface;
   const std::vector<neural::Sides> none(2, neural::Sides::none);
