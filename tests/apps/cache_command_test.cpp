@@ -12,7 +12,6 @@
 #include "tests/support/folder_test.h"
 #include "tests/support/picture_files.h"
 #include "tests/support/process.h"
-#include "tests/support/temporary_folder.h"
 
 namespace gatelight::tests {
 namespace {

@@ -6,12 +6,10 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "renderer/image/image_write.h"
 #include "renderer/image/srgb.h"
 #include "tests/support/folder_test.h"
 #include "tests/support/picture_files.h"
 #include "tests/support/process.h"
-#include "tests/support/temporary_folder.h"
 
 namespace gatelight::tests {
 namespace {

@@ -12,7 +12,6 @@
 #include "tests/support/noisy_image.h"
 #include "tests/support/picture_files.h"
 #include "tests/support/process.h"
-#include "tests/support/temporary_folder.h"
 #include "tests/support/tiny_scene.h"
 
 namespace gatelight::tests {

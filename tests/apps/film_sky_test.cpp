@@ -8,7 +8,6 @@
 
 #include "apps/settings/complete_settings.h"
 #include "apps/view/view_session.h"
-#include "renderer/image/image_read.h"
 #include "tests/support/animated_file.h"
 #include "tests/support/folder_test.h"
 #include "tests/support/picture_files.h"

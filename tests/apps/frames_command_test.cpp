@@ -5,9 +5,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
-#include <vector>
 
-#include "renderer/image/image_read.h"
 #include "tests/support/folder_test.h"
 #include "tests/support/picture_files.h"
 #include "tests/support/process.h"

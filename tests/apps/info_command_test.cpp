@@ -11,7 +11,6 @@
 #include "renderer/image/image_write.h"
 #include "tests/support/folder_test.h"
 #include "tests/support/process.h"
-#include "tests/support/temporary_folder.h"
 #include "tests/support/tiny_scene.h"
 
 namespace gatelight::tests {

@@ -5,11 +5,9 @@
 #include <limits>
 
 #include "renderer/image/image_read.h"
-#include "renderer/image/image_write.h"
 #include "tests/support/folder_test.h"
 #include "tests/support/picture_files.h"
 #include "tests/support/process.h"
-#include "tests/support/tiny_scene.h"
 
 namespace gatelight::tests {
 namespace {

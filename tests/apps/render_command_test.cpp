@@ -7,11 +7,9 @@
 #include <bit>
 #include <cstdint>
 #include <filesystem>
-#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
-#include <vector>
 
 #include "renderer/image/cryptomatte.h"
 #include "renderer/image/image_read.h"

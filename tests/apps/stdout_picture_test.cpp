@@ -9,9 +9,7 @@
 
 #include <csignal>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <string>
-#include <vector>
 
 #include "renderer/image/image_read.h"
 #include "tests/apps/render_command.h"
@@ -21,7 +19,6 @@ namespace gatelight::tests {
 namespace {
 
 using ::testing::HasSubstr;
-using ::testing::IsEmpty;
 
 class StdoutPicture : public SquareRenders {
  protected:

@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "renderer/image/image_read.h"
 #include "tests/support/folder_test.h"
 #include "tests/support/picture_files.h"
 #include "tests/support/process.h"

@@ -9,7 +9,6 @@
 
 #include "tests/support/folder_test.h"
 #include "tests/support/process.h"
-#include "tests/support/temporary_folder.h"
 
 namespace gatelight::tests {
 namespace {
@@ -58,20 +57,6 @@ TEST_F(VulkanCommand, BothDevicesRenderTheSamePicture) {
     const double difference = flip("cpu.exr", "vulkan.exr");
     EXPECT_GT(difference, 0.0);
     EXPECT_LT(difference, 0.005) << cache;
-  }
-}
-
-TEST_F(VulkanCommand, ACacheOfOneDeviceAnswersOnTheOther) {
-  const std::string file = path("c.safetensors");
-  const auto picture = [&](const char* device, const std::string& name, const Words& more) {
-    expect_done(render(words_of("--integrator nrc --size 48x32 --spp 2 --batch 256 --device {} -o {}",
-                                {device, path(name)}, more)));
-  };
-  for (const auto& [learner, queried] : {std::pair{"vulkan", "cpu"}, {"cpu", "vulkan"}}) {
-    picture(learner, "learned.exr", {"--train-steps", "16", "--cache-out", file});
-    picture(learner, "own.exr", {"--train-steps", "0", "--cache-in", file});
-    picture(queried, "queried.exr", {"--train-steps", "0", "--cache-in", file});
-    EXPECT_LT(flip("own.exr", "queried.exr"), 1e-4);
   }
 }
 

@@ -2,10 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <limits>
-#include <memory>
-#include <vector>
 
 #include "tests/neural/cpu/kernel_agreement.h"
 
@@ -13,7 +10,6 @@ namespace gatelight::neural {
 namespace {
 
 using namespace testing;
-using reference::make_reference_backend;
 using simd::Isa;
 
 class KernelRecords : public AgreesOnKernels {};

@@ -1,6 +1,5 @@
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -258,20 +257,6 @@ TEST(MemoryBudget, CellsOfDifferentScalesAreNotMerged) {
       for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
         nodes[i % 3 == 0].insert(node_index(layout, 2 * i, 0, t, {1, 0, 0}));
     for (const std::uint32_t node : nodes[0]) EXPECT_FALSE(nodes[1].contains(node));
-  }
-}
-
-TEST(MemoryBudget, AScaleOfAllInstancesScalesTheSpacing) {
-  for (const std::uint64_t budget : {20'000u, 200'000u}) {
-    GateOptions options{.memory_budget = budget};
-    Scene scene;
-    const GateLayoutReport one = build_gate_layout(scene.surfaces, options).report;
-    for (const float scale : {0x1p-40f, 0x1p40f}) {
-      for (SurfaceInstance& instance : scene.surfaces.instances) instance.spacing_scale = scale;
-      const GateLayout layout = build_gate_layout(scene.surfaces, options);
-      EXPECT_EQ(layout.report.node_spacing * scale, one.node_spacing);
-      EXPECT_LE(testing::feature_bytes(layout, options), budget);
-    }
   }
 }
 

@@ -1,7 +1,6 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
-#include <array>
 #include <limits>
 #include <map>
 #include <vector>

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 
 #include "neural/reference/adam.h"
 #include "neural/reference/encode.h"

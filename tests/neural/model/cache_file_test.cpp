@@ -2,9 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdint>
 #include <string>
-#include <vector>
 
 #include "neural/cpu/cpu_backend.h"
 #include "tests/neural/model/cache_files.h"

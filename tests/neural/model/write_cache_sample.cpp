@@ -1,6 +1,5 @@
 // write_cache_sample FILE fp32|fp16: a small cache file with known numbers, for check_safetensors.
 
-#include <cmath>
 #include <string>
 
 #include "neural/trainer.h"

@@ -103,20 +103,6 @@ TEST(Encode, PositionsAreMappedToTheUnitCubeAndClamped) {
   EXPECT_EQ(read_point(*model, batch, 1).position, (std::array<double, 3>{0, 1, 0}));
 }
 
-TEST(Encode, UnstoredPointsEncodeToZero) {
-  const auto model_case = find_model_case("gate_only");
-  const Model& model = *model_case.model;
-  testing::BatchOptions options;
-  options.unstored = 1;
-  const testing::OwnedBatch batch = testing::make_batch(model, 60, 1, options);
-  const std::vector<double> parameters(model.parameters.count, 1.0);
-  for (std::size_t r = 0; r < batch.size(); ++r) {
-    const Point point = read_point(model, batch.points(), r);
-    EXPECT_TRUE(encoding_nodes(model, point).empty());
-    for (const double input : encode(model, parameters, point)) EXPECT_EQ(input, 0.0);
-  }
-}
-
 TEST(Encode, EqualFeaturesOfALevelAreInterpolatedExactly) {
   // Partition of unity for every encoding: all nodes 1 gives features of 1.
   for (const auto& [name, config] : testing::all_model_configs()) {

@@ -8,8 +8,6 @@
 #include <limits>
 
 #include "base/errors.h"
-#include "neural/reference/encode.h"
-#include "neural/reference/record_gradient.h"
 #include "tests/neural/agreement_loops.h"
 #include "tests/support/model_batches.h"
 #include "tests/support/model_cases.h"
@@ -17,7 +15,6 @@
 namespace gatelight::neural::reference {
 namespace {
 
-using testing::answers;
 using testing::Fate;
 using testing::find_model_case;
 using testing::make_batch;

@@ -2,12 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cmath>
-#include <string>
 #include <vector>
 
-#include "base/errors.h"
 #include "base/half.h"
 #include "neural/reference/reference_backend.h"
 #include "tests/support/agreement.h"

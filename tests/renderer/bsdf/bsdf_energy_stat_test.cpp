@@ -3,7 +3,6 @@
 #include <array>
 #include <cmath>
 
-#include "renderer/bsdf/fresnel.h"
 #include "tests/renderer/bsdf/bsdf_cases.h"
 #include "tests/renderer/bsdf/bsdf_measures.h"
 #include "tests/support/statistics.h"

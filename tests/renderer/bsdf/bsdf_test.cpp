@@ -4,7 +4,6 @@
 
 #include <cmath>
 
-#include "renderer/bsdf/fresnel.h"
 #include "tests/renderer/bsdf/bsdf_cases.h"
 #include "tests/support/statistics.h"
 

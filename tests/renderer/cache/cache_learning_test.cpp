@@ -4,11 +4,9 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <cstdint>
 #include <utility>
 
-#include "base/errors.h"
 #include "tests/renderer/cache/cache_sessions.h"
 #include "tests/renderer/cache/small_worlds.h"
 #include "tests/support/materials.h"

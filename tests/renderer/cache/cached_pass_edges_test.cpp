@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <cstdint>
 
 #include "renderer/render.h"
@@ -13,7 +12,6 @@
 namespace gatelight::renderer {
 namespace {
 
-using testing::Moments;
 using testing::SceneBuilder;
 using testing::view_from;
 

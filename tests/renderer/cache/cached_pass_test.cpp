@@ -6,8 +6,6 @@
 
 #include <cmath>
 #include <cstdint>
-#include <string>
-#include <vector>
 
 #include "renderer/render.h"
 #include "tests/renderer/cache/cached_pictures.h"

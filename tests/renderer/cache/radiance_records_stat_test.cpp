@@ -61,26 +61,26 @@ double cached_in_furnace(CachedComponent holds) {
   return holds == CachedComponent::indirect ? kSent - 1.5 : kSent;
 }
 
-class RadianceRecordsStat : public ::testing::TestWithParam<CachedComponent> {};
+class RadianceRecordsStat : public ::testing::TestWithParam<CachedComponent> {
+ protected:
+  RadianceRecordsStat() { options.cache.component = GetParam(); }
+
+  const ViewedWorld furnace{testing::closed_furnace(kAlbedo, kEmission)};
+  RenderOptions options = deep();
+};
 
 TEST_P(RadianceRecordsStat, TargetsOfAClosedFurnaceAreItsLight) {
-  const ViewedWorld viewed(testing::closed_furnace(kAlbedo, kEmission));
-  RenderOptions options = deep();
-  options.cache.component = GetParam();
-  expect_mean(first_targets(viewed, options, 8000), cached_in_furnace(GetParam()));
+  expect_mean(first_targets(furnace, options, 8000), cached_in_furnace(GetParam()));
 }
 
 TEST_P(RadianceRecordsStat, AveragedTargetsHaveTheSameMeanAndLessNoise) {
-  const ViewedWorld viewed(testing::closed_furnace(kAlbedo, kEmission));
-  RenderOptions options = deep();
-  options.cache.component = GetParam();
   options.cache.path_length = 2;
   // Two scattering events: emission reflected once or twice.
   const double expected = GetParam() == CachedComponent::indirect ? 0.6 * 1.5 : 1.5 + 0.6 * 1.5;
   double variance[2];
   for (const std::size_t i : {std::size_t{0}, std::size_t{1}}) {
     options.cache.samples_per_point = i == 0 ? 1 : 8;
-    const MadeRecords made(viewed, options, {.step = 4, .points = 1000});
+    const MadeRecords made(furnace, options, {.step = 4, .points = 1000});
     const RecordBatch& batch = made.batch;
     // The averaged record of a point stands before its paths' others.
     Moments moments;
@@ -106,8 +106,6 @@ TEST_P(RadianceRecordsStat, SunAndSkyOverAPlaneGiveTheirCachedShare) {
   builder.scene().cameras.push_back(view_from(Vec3(0, 2, 0), Vec3(0, 0, 0)));
   builder.scene().lights = {testing::sun(Vec3(0.6f, -0.8f, 0.0f), Color(1.0f, 2.0f, 3.0f))};
   const ViewedWorld viewed(builder, {.constant = Color(0.1f, 0.3f, 0.9f)});
-  RenderOptions options = deep();
-  options.cache.component = GetParam();
   const double sunlight = 2.0 * 0.8 / M_PI;
   const double expected = GetParam() == CachedComponent::all        ? 0.3 + sunlight
                           : GetParam() == CachedComponent::no_delta ? 0.3
@@ -135,8 +133,6 @@ TEST_P(RadianceRecordsStat, TintedPanesWeightTheCachedLightBehindThem) {
   plane(ceiling, 2.0f);
   builder.scene().cameras.push_back(view_from(Vec3(0, 0.5f, 0), Vec3(0, 0, 0)));
   const ViewedWorld viewed(builder);
-  RenderOptions options = deep();
-  options.cache.component = GetParam();
   options.direct = DirectLight::bsdf;  // so wide a lamp so near is beyond the digits of light samples
   const double light = kShine / (1.0 - kCeiling * kFloor * kTint * kTint);
   // Light that misses the ends of the planes is 1e-4 of all.
@@ -145,34 +141,25 @@ TEST_P(RadianceRecordsStat, TintedPanesWeightTheCachedLightBehindThem) {
 }
 
 TEST_P(RadianceRecordsStat, FourScatteringEventsAreFourTermsOfTheSum) {
-  const ViewedWorld viewed(testing::closed_furnace(kAlbedo, kEmission));
-  RenderOptions options = deep();
-  options.cache.component = GetParam();
   for (const int length : {1, 4}) {
     options.cache.path_length = length;
     double expected = 0.0;
     for (int k = GetParam() == CachedComponent::indirect ? 1 : 0; k < length; ++k)
       expected += 1.5 * std::pow(0.6, k);
-    const Moments m = first_targets(viewed, options, 8000);
+    const Moments m = first_targets(furnace, options, 8000);
     expect_mean(m, expected);
   }
 }
 
 TEST_P(RadianceRecordsStat, EndsInAnExactCacheKeepTheMean) {
-  const ViewedWorld viewed(testing::closed_furnace(kAlbedo, kEmission));
-  RenderOptions options = deep();
-  options.cache.component = GetParam();
   const double cached = cached_in_furnace(GetParam());
   for (const int vertices : {1, 2}) {
     options.cache.self_training.vertices = vertices;
-    expect_mean(first_targets(viewed, options, 8000, true, static_cast<float>(cached)), cached);
+    expect_mean(first_targets(furnace, options, 8000, true, static_cast<float>(cached)), cached);
   }
 }
 
 TEST_P(RadianceRecordsStat, AttenuationWeakensOnlyTheEnds) {
-  const ViewedWorld viewed(testing::closed_furnace(kAlbedo, kEmission));
-  RenderOptions options = deep();
-  options.cache.component = GetParam();
   options.cache.self_training.vertices = 1;
   options.cache.self_training.full_fraction = 0.0f;
   options.cache.self_training.attenuation = 0.25f;
@@ -181,7 +168,7 @@ TEST_P(RadianceRecordsStat, AttenuationWeakensOnlyTheEnds) {
   const double direct = GetParam() == CachedComponent::indirect ? 1.5 : 0.0;
   const double scattered = 0.6 * (0.25 * cached + direct);
   const double expected = GetParam() == CachedComponent::indirect ? scattered : 1.5 + scattered;
-  expect_mean(first_targets(viewed, options, 8000, true, static_cast<float>(cached)), expected);
+  expect_mean(first_targets(furnace, options, 8000, true, static_cast<float>(cached)), expected);
 }
 
 std::string name_of(CachedComponent holds) {

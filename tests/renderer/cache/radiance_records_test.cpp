@@ -63,21 +63,6 @@ TEST(RadianceRecords, DeltaAndBlackVerticesWriteNoRecords) {
   EXPECT_GT(beyond, 20u);
 }
 
-TEST(RadianceRecords, TheVertexOwnEmissionIsNotLearned) {
-  SceneBuilder builder;
-  testing::add_floor(builder, SceneBuilder::lambert(Color::Constant(0.8f), Color::Constant(5.0f)), 9);
-  builder.scene().cameras.push_back(view_from(Vec3(0, 2, 0), Vec3(0, 0, 0)));
-  const ViewedWorld viewed(builder);
-  for (const CachedComponent holds :
-       {CachedComponent::all, CachedComponent::no_delta, CachedComponent::indirect}) {
-    RenderOptions options;
-    options.cache.component = holds;
-    const MadeRecords made(viewed, options, {.step = 1, .points = 500});
-    ASSERT_GT(made.batch.records.size(), 400u);
-    for (const float t : made.batch.targets) ASSERT_EQ(t, 0.0f);
-  }
-}
-
 TEST(RadianceRecords, ExcessRecordsAreLeftOutEvenly) {
   const ViewedWorld viewed(room());
   const RenderOptions options;
@@ -174,16 +159,6 @@ TEST(RadianceRecords, SamplesOfAPointBecomeOneRecordAtThePoint) {
       places.insert(made.batch.records.barycentrics(i));
     EXPECT_EQ(places.size(), made.batch.records.size()) << "no point twice";
   }
-}
-
-TEST(RadianceRecords, UnstoredSurfacesLeaveNoRecordsAndEndNoPaths) {
-  const ViewedWorld viewed(testing::closed_furnace(0.5f, 1.0f));
-  RenderOptions options;
-  const StoredSurfaces stored(viewed.world.scene, std::vector<neural::Sides>{neural::Sides::none});
-  const MadeRecords made(viewed, options, {.step = 1, .points = 100, .self_training = true}, {}, stored);
-  EXPECT_EQ(made.batch.records.size(), 0u);
-  EXPECT_EQ(queries_of(made.batch), 0u);
-  EXPECT_GT(made.rays.bounce, made.batch.paths_traced);
 }
 
 TEST(RadianceRecords, AnyNumberOfThreadsGivesTheSameBits) {

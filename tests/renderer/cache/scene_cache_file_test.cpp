@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <fstream>
 #include <functional>
 
 #include "base/errors.h"
@@ -98,26 +97,6 @@ TEST(SceneCacheFile, FilesOfOtherOptionsOrScenesAreRefusedByName) {
   EXPECT_EQ(opening("nao", nao, scene, 5), "") << "light does not change occlusion";
   scene[0].text = "f6";
   expect_message(opening("nao", nao, scene, 5), {"geometry"});
-}
-
-TEST(SceneCacheFile, AnotherNetworkIsRefusedButNotAnotherLearningRate) {
-  const TemporaryFolder folder;
-  const auto model = small_model();
-  const CacheState state = any_cache_state(*model, {}, 1);
-  write_cache_file(folder / "a", state, *model, {}, {kNrc}, kScene);
-  TrainingOptions options;
-  options.loss = neural::Loss::l2;
-  options.adam.learning_rate = 1e-3f;
-  options.seed = 5;
-  EXPECT_TRUE(same_bits(CacheFile(folder / "a").read_state(*model, options), state));
-  neural::ModelConfig config = model->config;
-  config.mlp.width = 32;
-  const auto wider = neural::testing::make_case("wide", config).model;
-  expect_refusal<CacheFileError>([&] { CacheFile(folder / "a").read_state(*wider, {}); },
-                                 {"hidden width", "16", "32"});
-  options.average.network = false;
-  expect_refusal<CacheFileError>([&] { CacheFile(folder / "a").read_state(*model, options); },
-                                 {"average of network", "true", "false"});
 }
 
 TEST(SceneCacheFile, ImpossibleSetupsAreRefused) {

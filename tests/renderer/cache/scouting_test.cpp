@@ -6,7 +6,6 @@
 
 #include <cmath>
 
-#include "renderer/cache/scene_layout.h"
 #include "tests/renderer/cache/small_worlds.h"
 
 namespace gatelight::renderer {

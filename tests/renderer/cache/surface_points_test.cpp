@@ -44,18 +44,6 @@ void expect_point(const neural::QueryBatch& batch, std::size_t i, int number) {
   EXPECT_EQ(batch.roughnesses[i], 0.1f * f);
 }
 
-TEST(SurfacePoints, ABatchHasThePushedPoints) {
-  SurfacePoints points(everything());
-  for (int i = 0; i < 5; ++i) push(points, i);
-  EXPECT_EQ(points.size(), 5u);
-  const neural::QueryBatch batch = points.batch();
-  ASSERT_EQ(batch.size, 5u);
-  for (int i = 0; i < 5; ++i) expect_point(batch, static_cast<std::size_t>(i), i);
-  EXPECT_EQ(points.surface(3), 7u);
-  EXPECT_EQ(points.triangle(3), 103u);
-  EXPECT_EQ(points.barycentrics(3), batch.barycentrics[3]);
-}
-
 TEST(SurfacePoints, UnusedInputsAreNotStored) {
   const auto sizes = [](const PointInputs& inputs) {
     SurfacePoints points(inputs);

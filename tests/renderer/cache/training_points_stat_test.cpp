@@ -16,7 +16,6 @@
 namespace gatelight::renderer {
 namespace {
 
-using testing::Moments;
 using testing::SceneBuilder;
 using testing::ViewedWorld;
 

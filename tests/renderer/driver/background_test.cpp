@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "renderer/image/image_read.h"
 #include "renderer/image/image_write.h"
 #include "renderer/render.h"
 #include "tests/support/denoiser.h"

@@ -2,10 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <functional>
-
 #include "base/errors.h"
-#include "base/file/atomic_file.h"
 #include "tests/support/cached_state.h"
 #include "tests/support/messages.h"
 #include "tests/support/temporary_folder.h"
@@ -18,7 +15,6 @@ using testing::same_bits;
 using testing::small_model;
 using tests::expect_message;
 using tests::expect_refusal;
-using tests::read_file;
 using tests::refusal;
 using tests::TemporaryFolder;
 

@@ -5,7 +5,6 @@
 #include <atomic>
 #include <cmath>
 
-#include "renderer/driver/error_checks.h"
 #include "renderer/metrics/compare.h"
 #include "renderer/render.h"
 #include "tests/support/denoiser.h"
@@ -124,12 +123,6 @@ TEST_P(MaxError, AResumedPictureEndsWithTheSameSamples) {
     EXPECT_EQ(resumed.statistics.ended_by, EndedBy::max_error);
     EXPECT_EQ(resumed.picture.layers[0].values, straight.picture.layers[0].values);
   }
-}
-
-TEST_P(MaxError, AnEstimateNeedsTwoSamples) {
-  RenderOptions one = options();
-  one.spp = 1;
-  EXPECT_FALSE(render(one).statistics.estimated_error);
 }
 
 TEST_P(MaxError, ATimeLimitGivesAPicture) {

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string>
 
 #include "renderer/render.h"
 #include "tests/renderer/driver/glowing_scenes.h"

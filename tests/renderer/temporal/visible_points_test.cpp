@@ -4,8 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "renderer/sampling/warp.h"
 #include "tests/renderer/cache/small_worlds.h"
 #include "tests/support/materials.h"

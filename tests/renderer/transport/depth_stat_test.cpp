@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 
 #include "renderer/render.h"
@@ -27,21 +26,18 @@ RenderOptions view(const Vec3& eye, int spp) {
   return options;
 }
 
-class WhiteRooms : public ::testing::TestWithParam<float> {};
-
-TEST_P(WhiteRooms, HaveARadianceOfOne) {
-  SceneBuilder builder;
-  const float albedo = GetParam();
-  const int wall =
-      builder.material(SceneBuilder::lambert(Color::Constant(albedo), Color::Constant(1.0f - albedo)));
-  builder.box(wall, Vec3(-1, -1, -1), Vec3(1, 1, 1), true);
-  const RenderOptions options = view(Vec3(0.1f, 0.2f, 0.5f), 256);
-  const testing::Moments m = testing::channel_moments(Renderer(builder.scene(), options).render(), 0);
-  EXPECT_GT(testing::mean_p_value(m, 1.0, 1e-5), kDepthSignificance)
-      << "mean " << m.mean() << " +- " << m.standard_error();
+TEST(WhiteRooms, HaveARadianceOfOne) {
+  for (const float albedo : {0.5f, 0.8f, 0.9f, 0.99f}) {
+    SceneBuilder builder;
+    const int wall =
+        builder.material(SceneBuilder::lambert(Color::Constant(albedo), Color::Constant(1.0f - albedo)));
+    builder.box(wall, Vec3(-1, -1, -1), Vec3(1, 1, 1), true);
+    const RenderOptions options = view(Vec3(0.1f, 0.2f, 0.5f), 256);
+    const testing::Moments m = testing::channel_moments(Renderer(builder.scene(), options).render(), 0);
+    EXPECT_GT(testing::mean_p_value(m, 1.0, 1e-5), kDepthSignificance)
+        << albedo << ": mean " << m.mean() << " +- " << m.standard_error();
+  }
 }
-
-INSTANTIATE_TEST_SUITE_P(Albedos, WhiteRooms, ::testing::Values(0.5f, 0.8f, 0.9f, 0.99f));
 
 /// The least and the largest pixel of a white sky behind blocks of clear glass.
 std::pair<float, float> behind_blocks(int blocks, const std::optional<int>& max_depth,

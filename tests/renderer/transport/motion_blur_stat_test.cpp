@@ -10,7 +10,6 @@
 
 #include "renderer/render.h"
 #include "scene/gltf.h"
-#include "scene/shutter.h"
 #include "tests/support/statistics.h"
 
 namespace gatelight::renderer {
