@@ -108,29 +108,6 @@ TEST(Extremes, ABatchWithoutAGoodRecordChangesNothing) {
   }
 }
 
-// All records are on one corner of one triangle: one node of each level receives all of them.
-TEST(Extremes, OneNodeCanTakeAllRecords) {
-  const ModelCase c = find_model_case("nrc");
-  const TrainingOptions options = smooth_options();
-  const ModelState state = random_state(*c.model, options, 8, false);
-  OwnedBatch batch = make_smooth_batch(*c.model, state, 4999, 8, {.crowded = 1.0f});
-  for (Float2& b : batch.barycentrics) b = {1, 0};
-  const auto reference = reference::make_reference_backend(c.model, options);
-  reference->import_state(state);
-  EXPECT_EQ(reference->train(batch.training()).touched_nodes, 2u);  // one a level
-  const ModelState expected = reference->export_state();
-  for (const Isa isa : simd::available_isas()) {
-    const auto fast = cpu::make_cpu_backend(c.model, options, isa);
-    fast->import_state(state);
-    EXPECT_EQ(fast->train(batch.training()).touched_nodes, 2u);
-    const ModelState got = fast->export_state();
-    EXPECT_EQ(got.node_steps, expected.node_steps);
-    const std::vector<bool> none(c.model->parameters.node_count, false);
-    EXPECT_LE(tensor_difference(*c.model, got.first_moments, expected.first_moments, none), 2e-5);
-    EXPECT_LE(tensor_difference(*c.model, got.parameters, expected.parameters, none), 2e-5);
-  }
-}
-
 // Step counters at the end of the table of Adam's factors, far beyond it, and at their maximum.
 TEST(Extremes, StepsBeyondTheTableOfAdamFactorsAgree) {
   const ModelCase c = find_model_case("nrc");

@@ -130,28 +130,6 @@ TYPED_TEST(MeshColors, BarycentricsOutsideAreClampedAndTheRestIsNormalised) {
   check({3 * tiny, tiny, 0}, {TypeParam(0.75), TypeParam(0.25), 0});
 }
 
-TYPED_TEST(MeshColors, ExchangingCornersExchangesNodes) {
-  for (std::uint32_t r = 1; r <= kMaxResolution; ++r)
-    for (std::uint32_t n = 0; n < 100; ++n) {
-      const auto b = to<TypeParam>(testing::random_barycentrics(1000 + r, n));
-      std::array<int, 3> order = {0, 1, 2};
-      std::map<NodeBarycentrics, double> expected;
-      const auto sample = mesh_color_lookup(b, r);
-      for (int t = 0; t < 3; ++t) expected[sample.nodes[t]] += static_cast<double>(sample.weights[t]);
-      do {
-        const auto other = mesh_color_lookup(std::array{b[order[0]], b[order[1]], b[order[2]]}, r);
-        std::map<NodeBarycentrics, double> found;
-        for (int t = 0; t < 3; ++t) {
-          NodeBarycentrics node;
-          for (int c = 0; c < 3; ++c) node[order[c]] = other.nodes[t][c];
-          found[node] += static_cast<double>(other.weights[t]);
-        }
-        for (const auto& [node, weight] : expected)
-          ASSERT_NEAR(found[node], weight, 1000 * std::numeric_limits<TypeParam>::epsilon());
-      } while (std::next_permutation(order.begin(), order.end()));
-    }
-}
-
 /// A field with a random value at each node.
 double node_value(std::uint32_t node) {
   return 2 * uniform(7, node) - 1;
@@ -269,21 +247,6 @@ TEST(MeshColorEdges, TwoTrianglesAgreeAlongTheirEdgeInAllOrientations) {
         }
       } while (std::next_permutation(two.begin(), two.end()));
     } while (std::next_permutation(one.begin(), one.end()));
-  }
-}
-
-TEST(MeshColorEdges, ALoopOfATriangleWithEqualCornersHasNodesOfItsOwn) {
-  const Mesh mesh = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}},
-                     {{0, 0, 1}, {1, 0, 1}, {2, 2, 2}, {0, 1, 2}, {1, 0, 0}}};
-  for (std::uint32_t r = 1; r <= 8; ++r) {
-    const GateLayout layout = build_gate_layout(testing::one_instance(mesh), testing::fixed_options(r));
-    // Edges 0-0, 1-1, 2-2, 0-1, 0-2, 1-2.
-    EXPECT_EQ(layout.report.edge_nodes, 6u * (r - 1));
-    std::set<std::uint32_t> indices;
-    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
-      for (const NodeBarycentrics& node : all_nodes(r)) indices.insert(node_index(layout, 0, 0, t, node));
-    EXPECT_EQ(indices.size(), layout.node_count);
-    EXPECT_EQ(*indices.rbegin(), layout.node_count - 1);
   }
 }
 

@@ -64,18 +64,6 @@ TEST(Adam, BiasCorrectionIsExactFromTheFirstStepToABillion) {
   }
 }
 
-TEST(Adam, FactorsForKernelsMakeTheSameStep) {
-  AdamOptions options;
-  options.epsilon = 0.1f;
-  for (const std::uint64_t t : {1ull, 2ull, 10ull, 1000ull, 1000000000ull}) {
-    Moments moments{0.3, 0.2};
-    const double stepped = adam(options, t, 1.0, -0.7, moments);
-    const AdamFactors factors = adam_factors(options, t);
-    EXPECT_NEAR(1.0 - factors.step * moments.first / (std::sqrt(moments.second) + factors.epsilon), stepped,
-                1e-15);
-  }
-}
-
 struct Trained {
   ModelState before, after;
   std::vector<bool> touched;
@@ -130,22 +118,6 @@ TEST(Adam, SparseUpdatesLeaveUntouchedNodesAndDenseOnesMoveThem) {
     }
     EXPECT_GT(untouched, 0);
   }
-}
-
-TEST(Adam, CountersPerNodeCountTheStepsThatTouchedIt) {
-  // With beta1 = 0 and one step of gradient g at the counter t, the step is lr(t) g / sqrt(v_corrected).
-  const auto model_case = find_model_case("nao");
-  const Model& model = *model_case.model;
-  TrainingOptions options;
-  const auto backend = make_reference_backend(model_case.model, options);
-  const OwnedBatch batch = make_batch(model, 1, 3);
-  for (int step = 0; step < 5; ++step) backend->train(batch.training());
-  const ModelState state = backend->export_state();
-  EXPECT_EQ(state.steps, 5u);
-  std::vector<std::uint32_t> expected(model.parameters.node_count, 0);
-  for (const NodeWeight& node : encoding_nodes(model, read_point(model, batch.points(), 0)))
-    expected[node.node] = 5;
-  EXPECT_EQ(state.node_steps, expected);
 }
 
 /// A batch of one record.

@@ -89,36 +89,5 @@ TEST(TrainingCounts, ASingleCandidateIsChosen) {
   for (const float u : {0.0f, 0.5f, 0x1.fffffep-1f}) EXPECT_EQ(choose_candidate(candidate, {}, u), 0u);
 }
 
-// Choices read a frozen snapshot: they depend neither on earlier choices nor on triangles that are not
-// candidates.
-TEST(TrainingCounts, ChoicesOfABatchDoNotDependOnTheirOrder) {
-  constexpr std::size_t kRecords = 1000;
-  Random random(4);
-  std::vector<std::uint32_t> counts(200);
-  for (std::uint32_t& count : counts) count = static_cast<std::uint32_t>(random.bits() % 600);
-  std::vector<std::array<std::uint32_t, kCandidates>> candidates(kRecords);
-  std::vector<float> numbers(kRecords);
-  for (std::size_t i = 0; i < kRecords; ++i) {
-    for (std::uint32_t& candidate : candidates[i])
-      candidate = static_cast<std::uint32_t>(random.bits() % 200);
-    numbers[i] = random.uniform_float();
-  }
-  std::vector<std::uint32_t> forward(kRecords);
-  std::vector<std::uint32_t> trained = counts;
-  for (std::size_t i = 0; i < kRecords; ++i) {
-    forward[i] = candidates[i][choose_candidate(candidates[i], counts, numbers[i])];
-    ++trained[forward[i]];
-  }
-  ASSERT_NE(trained, counts);
-  for (std::size_t i = kRecords; i-- > 0;) {
-    EXPECT_EQ(candidates[i][choose_candidate(candidates[i], counts, numbers[i])], forward[i]);
-  }
-  for (std::size_t i = 0; i < kRecords; ++i) {
-    std::vector<std::uint32_t> others(200, 77);
-    for (const std::uint32_t candidate : candidates[i]) others[candidate] = counts[candidate];
-    EXPECT_EQ(candidates[i][choose_candidate(candidates[i], others, numbers[i])], forward[i]);
-  }
-}
-
 }  // namespace
 }  // namespace gatelight::neural

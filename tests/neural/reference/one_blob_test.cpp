@@ -66,22 +66,6 @@ TEST(OneBlob, UnwrappedBinsSumToOneInsideAndToLessAtTheBorder) {
   }
 }
 
-TEST(OneBlob, WrappingJoinsBothEnds) {
-  for (const std::size_t k : kBins) {
-    for (std::size_t b = 0; b < k; ++b) {
-      EXPECT_NEAR(blob(0.0, true, k)[b], blob(1.0, true, k)[b], 1e-15);
-      EXPECT_NEAR(blob(-0.25, true, k)[b], blob(0.75, true, k)[b], 1e-15);
-      EXPECT_NEAR(blob(1e-9, true, k)[b], blob(1 - 1e-9, true, k)[b], 1e-6);
-    }
-    // Without wrapping, the first bin is empty at one end and the last at the other.
-    const std::vector<double> low = blob(0.0, false, k), high = blob(1.0, false, k);
-    EXPECT_NEAR(low.front(), 0.5, 1e-15);
-    EXPECT_EQ(high.front(), 0.0);
-    EXPECT_NEAR(high.back(), 0.5, 1e-15);
-    EXPECT_EQ(low.back(), 0.0);
-  }
-}
-
 TEST(OneBlob, WrappedBinsShiftWithTheirInput) {
   for (const std::size_t k : kBins) {
     const std::vector<double> here = blob(0.3, true, k);

@@ -14,7 +14,6 @@
 namespace gatelight::renderer {
 namespace {
 using neural::FeatureEncoding;
-using neural::TrainingOptions;
 using testing::any_cache_state;
 using testing::same_bits;
 using testing::small_model;

@@ -158,21 +158,6 @@ TEST(TrainingPoints, CountsThatFillNoGridAreNearlyKept) {
   EXPECT_NEAR(static_cast<double>(choose(walls, options, 0, 50, {7, 0, 8, 48}).starts.size()), 50.0, 1.0);
 }
 
-TEST(TrainingPoints, TheFractionThatRunsToItsEndIsExactToOne) {
-  const ViewedWorld walls(two_walls());
-  RenderOptions options;
-  for (const float fraction : {0.0f, 0.0625f, 0.3f, 1.0f}) {
-    options.cache.self_training.full_fraction = fraction;
-    for (std::uint64_t step = 0; step < 5; ++step) {
-      const TrainingStarts starts = choose(walls, options, step, 1000);
-      const auto full = static_cast<double>(std::count_if(starts.starts.begin(), starts.starts.end(),
-                                                          [](const PathStart& s) { return s.to_its_end; }));
-      const double expected = static_cast<double>(fraction) * static_cast<double>(starts.starts.size());
-      EXPECT_LE(std::abs(full - expected), 1.0) << fraction;
-    }
-  }
-}
-
 TEST(TrainingPoints, EqualStepsAreEqualAndOthersAreNot) {
   const ViewedWorld walls(two_walls());
   for (const TrainingSource source : {TrainingSource::camera, TrainingSource::surface}) {

@@ -11,7 +11,6 @@ namespace gatelight::renderer {
 namespace {
 
 using testing::any_cache_state;
-using testing::same_bits;
 using testing::small_model;
 using tests::expect_message;
 using tests::expect_refusal;
@@ -74,22 +73,6 @@ Bytes bytes_of(const Film& film) {
   return packer.take();
 }
 
-TEST(FilmSums, AFilmResumesToTheBit) {
-  for (const bool first_hits : {false, true}) {
-    Film whole = blank_film(first_hits);
-    Film resumed = blank_film(first_hits);
-    for (std::uint64_t sample = 0; sample < 6; ++sample) {
-      add_sample(whole, sample);
-      if (sample == 2) resumed.set_sums(whole.sums());
-      if (sample > 2) add_sample(resumed, sample);
-    }
-    EXPECT_EQ(bytes_of(whole), bytes_of(resumed));
-    const Picture a = whole.resolve();
-    const Picture b = resumed.resolve();
-    for (std::size_t i = 0; i < a.layers.size(); ++i) EXPECT_EQ(a.layers[i].values, b.layers[i].values);
-  }
-}
-
 TEST(Checkpoint, FilmAndStatisticsComeBack) {
   const TemporaryFolder folder;
   RenderStatistics statistics;
@@ -138,31 +121,6 @@ TEST(Checkpoint, FilmAndStatisticsComeBack) {
 
 const TrainingGuard kGuard = {0.1, std::numeric_limits<double>::infinity(), 1000, 0.3, 4, 2.5, 900};
 
-TEST(Checkpoint, TheCacheComesBackToTheBitInBothPhases) {
-  const TemporaryFolder folder;
-  const auto model = small_model();
-  for (const auto& [name, options] : neural::testing::all_training_options(*model)) {
-    SCOPED_TRACE(name);
-    CacheState state = any_cache_state(*model, options, 1);
-    state.guard = kGuard;
-    const CheckpointCache cache{state, *model, options};
-    Film film = blank_film(true);
-    for (const CheckpointProgress progress :
-         {CheckpointProgress{Phase::train, 0}, CheckpointProgress{Phase::render, 3}}) {
-      if (progress.samples > 0) add_sample(film, 1);
-      write_checkpoint(folder / "a", identity(), progress, {}, film, cache);
-      Checkpoint checkpoint(folder / "a");
-      EXPECT_EQ(checkpoint.progress().phase, progress.phase);
-      EXPECT_TRUE(same_bits(checkpoint.cache_setup(), state.setup));
-      EXPECT_TRUE(same_bits(checkpoint.read_cache(*model, options), state));
-      Film restored = blank_film(true);
-      RenderStatistics statistics;
-      checkpoint.restore(restored, statistics);
-      EXPECT_EQ(bytes_of(restored), bytes_of(film));
-    }
-  }
-}
-
 TEST(Checkpoint, DifferencesAreRefusedByName) {
   const TemporaryFolder folder;
   Film film = blank_film(false);
@@ -170,12 +128,7 @@ TEST(Checkpoint, DifferencesAreRefusedByName) {
   write_checkpoint(folder / "a", identity(), {Phase::render, 17}, {}, film, {});
   Checkpoint checkpoint(folder / "a");
   CheckpointIdentity other = identity();
-  other.options[0].text = "other";
-  expect_refusal<CacheFileError>([&] { checkpoint.expect(other, 64); }, {"/a", "seed", "1", "other"});
-  other = identity();
-  other.scene[2].text = "other";
-  expect_refusal<CacheFileError>([&] { checkpoint.expect(other, 64); }, {"materials"});
-  other.scene[3].text = "other";
+  other.scene[2].text = other.scene[3].text = "other";
   expect_refusal<CacheFileError>([&] { checkpoint.expect(other, 64); }, {"materials", "lights"});
   expect_refusal<CacheFileError>([&] { checkpoint.expect(identity(), 16); }, {"spp", "17", "16"});
   EXPECT_EQ(refusal<CacheFileError>([&] { checkpoint.expect(identity(), 17); }), "");

@@ -33,28 +33,6 @@ CameraOptions named(const std::string& name) {
   return options;
 }
 
-TEST(Camera, CentreLooksForwardAndCornersSpanTheFieldOfView) {
-  scene::Camera c;
-  c.vertical_fov = 1.0f;
-  const Camera camera(c, 200, 100);
-  EXPECT_TRUE(camera.ray(100, 50).ray.direction.isApprox(Vec3(0, 0, -1), 1e-6f));
-  const Vec3 top = camera.ray(100, 0).ray.direction;
-  EXPECT_NEAR(std::acos(top.dot(Vec3(0, 0, -1))), 0.5f, 1e-5f);
-  EXPECT_GT(top.y(), 0.0f);
-  const Vec3 right = camera.ray(200, 50).ray.direction;
-  EXPECT_NEAR(right.x() / -right.z(), 2.0f * std::tan(0.5f), 1e-5f);
-}
-
-TEST(Camera, OrthographicRaysAreParallel) {
-  scene::Camera c;
-  c.orthographic = true;
-  c.half_height = 3.0f;
-  const Camera camera(c, 100, 100);
-  EXPECT_TRUE(camera.ray(0, 0).ray.origin.isApprox(Vec3(-3, 3, 0), 1e-6f));
-  EXPECT_EQ(camera.ray(0, 0).ray.direction, camera.ray(70, 20).ray.direction);
-  EXPECT_FLOAT_EQ(camera.ray(0, 0).cone.width, 0.06f);
-}
-
 TEST(Camera, ConeIsOnePixelWide) {
   scene::Camera c;
   const Camera camera(c, 100, 80);

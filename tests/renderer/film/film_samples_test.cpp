@@ -3,61 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <limits>
-#include <set>
 #include <vector>
 
 namespace gatelight::renderer {
 namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
-
-struct Maker {
-  RenderOptions options;
-  Camera camera{scene::Camera{}, 8, 8};
-  FilterSampler filter{PixelFilter::box, 1.0f};
-
-  std::vector<CameraSample> samples(const std::vector<Pixel>& pixels, std::uint32_t sample) const {
-    const Film film({0, 0, 8, 8}, 8, 8, {});
-    std::vector<PixelSample> wanted;
-    for (const Pixel& p : pixels) wanted.push_back({p, sample});
-    std::vector<CameraSample> result(3);  // its old content is replaced
-    make_camera_samples(wanted, film, options, camera, filter, result);
-    return result;
-  }
-};
-
-TEST(CameraSamples, EachPixelHasOneWithinIt) {
-  const Maker maker;
-  const std::vector<Pixel> pixels = {{0, 0}, {7, 0}, {3, 5}};
-  const std::vector<CameraSample> samples = maker.samples(pixels, 0);
-  ASSERT_EQ(samples.size(), 3u);
-  for (std::size_t i = 0; i < pixels.size(); ++i) {
-    const auto x = static_cast<float>(pixels[i].x);
-    const auto y = static_cast<float>(pixels[i].y);
-    const Vec3 d = samples[i].ray().direction;
-    const Vec3 low = maker.camera.ray(x, y + 1.0f).ray.direction;
-    const Vec3 high = maker.camera.ray(x + 1.0f, y).ray.direction;
-    EXPECT_GE(d.x() / d.z(), high.x() / high.z());
-    EXPECT_LE(d.x() / d.z(), low.x() / low.z());
-    EXPECT_GE(d.y() / d.z(), high.y() / high.z());
-    EXPECT_LE(d.y() / d.z(), low.y() / low.z());
-    EXPECT_EQ(samples[i].ray().seed, alpha_seed(samples[i].sampler));
-  }
-}
-
-TEST(CameraSamples, DependOnlyOnPixelSampleAndSeed) {
-  Maker maker;
-  const CameraSample one = maker.samples({{2, 3}}, 5).front();
-  EXPECT_EQ(maker.samples({{1, 1}, {2, 3}}, 5)[1].ray().direction, one.ray().direction);
-  std::set<std::uint32_t> seeds = {one.seed, maker.samples({{2, 3}}, 6).front().seed,
-                                   maker.samples({{3, 2}}, 5).front().seed,
-                                   maker.samples({{2, 5}}, 3).front().seed};
-  maker.options.seed += 1;
-  const CameraSample other = maker.samples({{2, 3}}, 5).front();
-  seeds.insert(other.seed);
-  EXPECT_EQ(seeds.size(), 5u);
-  EXPECT_NE(other.ray().direction, one.ray().direction);
-}
 
 TEST(FirstHit, HoldsThePositionInTheFilesCoordinates) {
   Hit hit;
@@ -100,19 +51,6 @@ TEST(FilmSamples, NonFiniteOnesAreLeftOutAndLocated) {
   EXPECT_EQ(counts.located[0].seed, 9u);
 }
 
-TEST(FilmSamples, BrightOnesAreScaledToTheClampAndCounted) {
-  Film film({0, 0, 2, 1}, 2, 1, {});
-  SampleCounts counts;
-  const std::vector<PixelSample> samples = {{{0, 0}, 0}, {{1, 0}, 0}};
-  RenderOptions options;
-  options.clamp = 2.0f;
-  const std::vector<SampleResult> results = {{Color(8, 8, 8)}, {Color(1.5f, 1.5f, 1.5f)}};
-  add_to_film(samples, options, results, {}, film, counts);
-  const std::vector<float> mean = film.resolve().layers[0].values;
-  for (std::size_t i = 0; i < 6; ++i) EXPECT_NEAR(mean[i], i < 3 ? 2.0f : 1.5f, 1e-6f);
-  EXPECT_EQ(counts.clamped, 1u);
-}
-
 TEST(FilmSamples, PartsAreScaledAndDroppedWithTheirSamples) {
   Film film({0, 0, 2, 1}, 2, 1, {.parts = {"a", "rest"}});
   SampleCounts counts;
@@ -144,23 +82,6 @@ TEST(FilmSamples, FirstHitsOfNonFiniteSamplesCount) {
   const std::vector<SampleResult> results = {{Color(kInfinity, 0, 0)}};
   add_to_film(std::vector<PixelSample>{{}}, {}, results, {&hit, 1}, film, counts);
   EXPECT_FLOAT_EQ(film.resolve().find("depth")->values[0], 4.0f);
-}
-
-TEST(FilmSamples, TheFirst16NonFiniteOnesAreKeptInTheOrderOfThePicture) {
-  SampleCounts all;
-  for (int part = 0; part < 2; ++part) {
-    SampleCounts counts{.nonfinite = 10, .clamped = 1};
-    for (int i = 0; i < 10; ++i) counts.located.push_back({9 - i, 1 - part, 3u, 0});
-    all.add(counts);
-  }
-  EXPECT_EQ(all.nonfinite, 20u);
-  EXPECT_EQ(all.clamped, 2u);
-  keep_first(all.located);
-  ASSERT_EQ(all.located.size(), 16u);
-  for (int i = 0; i < 16; ++i) {
-    EXPECT_EQ(all.located[static_cast<std::size_t>(i)].y, i / 10);
-    EXPECT_EQ(all.located[static_cast<std::size_t>(i)].x, i % 10);
-  }
 }
 
 TEST(FilmSamples, AFilmOfNothingButNonFiniteSamplesKeepsFewPlaces) {

@@ -10,22 +10,6 @@
 namespace gatelight::renderer {
 namespace {
 
-TEST(Film, PixelIsTheMeanAndVarianceIsThatOfTheMean) {
-  Film film({2, 1, 4, 3}, 8, 8, {.aovs = {Aov::variance, Aov::sample_count}});
-  for (float v : {1.0f, 2.0f, 6.0f}) film.add(film.take({3, 2}), Color(v, 2.0f * v, 0.0f));
-  const Picture picture = film.resolve();
-  EXPECT_EQ(picture.x0, 2);
-  EXPECT_EQ(picture.full_width, 8);
-  const std::size_t i = 3 * 3;  // the last of four pixels
-  EXPECT_FLOAT_EQ(picture.layers[0].values[i], 3.0f);
-  EXPECT_FLOAT_EQ(picture.layers[0].values[i + 1], 6.0f);
-  // Sample variance 7, over three samples.
-  EXPECT_FLOAT_EQ(picture.find("variance")->values[i], 7.0f / 3.0f);
-  EXPECT_FLOAT_EQ(picture.find("variance")->values[i + 1], 28.0f / 3.0f);
-  EXPECT_FLOAT_EQ(picture.find("samples")->values[3], 3.0f);
-  EXPECT_FLOAT_EQ(picture.layers[0].values[0], 0.0f);
-}
-
 TEST(Film, FirstHitsAverageOverHitsAndIdsAreThoseOfTheFirstSample) {
   Film film({0, 0, 1, 1}, 1, 1,
             {.aovs = {Aov::albedo, Aov::depth, Aov::position, Aov::primitive_id, Aov::instance_id}});

