@@ -15,7 +15,6 @@ namespace gatelight::tests {
 namespace {
 
 using nlohmann::json;
-using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -41,21 +40,6 @@ class CompareFramesCommand : public FolderTest {
   std::string reference() const { return path("r-%04d.exr"); }
   std::string test() const { return path("t##.exr"); }
 };
-
-TEST_F(CompareFramesCommand, PrintsMeansAndTheExtremeFrames) {
-  make_sequences();
-  const Output output = expect_done(compare({"--frames", "0:3", "--exposure", "-2"}));
-  EXPECT_EQ(output.err, "");
-  EXPECT_THAT(output.out,
-              AllOf(HasSubstr("frames           4\n"), HasSubstr("mse              0.3125\n"),
-                    HasSubstr("rel_mse          0.309406, from 0 (frame 0) to 0.990099 (frame 3)\n"),
-                    HasSubstr("max_error        0.375\n"), HasSubstr("ssim             -\n")));
-  EXPECT_THAT(output.out, AllOf(HasSubstr("flip             0."), HasSubstr("from 0 (frame 0) to 0."),
-                                HasSubstr("hdr_flip         0."), HasSubstr("temporal_low     0."),
-                                HasSubstr("temporal_high    ")));
-  const Output chosen = compare({"--frames", "1:1", "--metric", "mse"});
-  EXPECT_EQ(chosen.out, "frames           1\nmse              0.25\n");
-}
 
 TEST_F(CompareFramesCommand, JsonHasMeansAndAListOfFrames) {
   make_sequences();

@@ -117,23 +117,6 @@ TEST_F(DenoiseCommand, ReplacesTheLayerThatIsNamedAndNoOther) {
   EXPECT_EQ(read_file(path("c.exr")), read_file(path("b.exr"))) << "the usual names are the same layers";
 }
 
-TEST_F(DenoiseCommand, FindsChannelsByTheirNames) {
-  GATELIGHT_NEEDS_DENOISER();
-  const renderer::NoisyImage image = testing::noisy_image(kWidth, kHeight);
-  write_image(picture_of(image, {"", "albedo", "N"}), path("upper.exr"), {.exr_float = true});
-  write_image(picture_of(image, {"", "albedo", "N", {"red", "green", "blue"}}), path("words.exr"),
-              {.exr_float = true});
-  write_image(picture_of(image, {"", "albedo", "N", {"r", "g", "b"}}), path("lower.exr"),
-              {.exr_float = true});
-  for (const std::string name : {"upper", "words", "lower"}) {
-    expect_done(run_gatelight_inside({"denoise", path(name + ".exr"), "-o", path(name + ".png"), "-o",
-                                      path(name + "-out.exr"), "--quiet"}));
-    EXPECT_EQ(read_file(path(name + ".png")), read_file(path("upper.png"))) << name;
-    EXPECT_EQ(beauty_of(path(name + "-out.exr")), beauty_of(path("upper-out.exr"))) << name;
-  }
-  EXPECT_LT(error_of(path("lower-out.exr"), ""), 0.2 * error_of(path("lower.exr"), ""));
-}
-
 TEST_F(DenoiseCommand, OneGuideIsBetterThanNone) {
   GATELIGHT_NEEDS_DENOISER();
   const renderer::NoisyImage image = testing::noisy_image(kWidth, kHeight);

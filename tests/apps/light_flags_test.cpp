@@ -114,30 +114,6 @@ TEST_F(LightFlags, GroupsAreLayersThatAddUpAndAreInTheRecipe) {
   EXPECT_FLOAT_EQ(middle_of(dark, "light-key"), middle(dark));
 }
 
-TEST_F(LightFlags, GroupsOfDenoisedPicturesAddUpToRawAndAreMerged) {
-  GATELIGHT_NEEDS_DENOISER();
-  std::vector<std::string> files;
-  for (const char* seed : {"1", "2"}) {
-    files.push_back((folder / (std::string(seed) + ".exr")).string());
-    expect_done(run_gatelight({"render", scene, "-o", files.back(), "--size", "24x16", "--spp",
-                               seed[0] == '1' ? "4" : "10", "--seed", seed, "--denoiser", "oidn", "--aov",
-                               "raw", "--environment", "0.3,0.2,0.1", "--light-groups",
-                               "key=noon;panel=panel;sky=environment"}));
-  }
-  files.push_back((folder / "merged.exr").string());
-  expect_done(run_gatelight({"merge", "-o", files[2], files[0], files[1]}));
-  for (const std::string& file : files) {
-    const Picture picture = read_image(file);
-    const std::vector<float>& raw = picture.find("raw")->values;
-    for (std::size_t i = 0; i < raw.size(); ++i) {
-      double sum = 0.0;
-      for (const char* layer : {"light-key", "light-panel", "light-sky"})
-        sum += static_cast<double>(picture.find(layer)->values[i]);
-      ASSERT_NEAR(sum, static_cast<double>(raw[i]), 1e-6 * static_cast<double>(raw[i])) << file << " " << i;
-    }
-  }
-}
-
 TEST_F(LightFlags, ASkyLightsASceneWithoutLightsAndIsInTheRecipe) {
   const std::string dark = folder.write("dark.gltf", tiny_scene());
   const std::string file = (folder / "sky.exr").string();

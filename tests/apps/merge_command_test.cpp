@@ -22,19 +22,6 @@ class MergeCommand : public FolderTest {
   }
 };
 
-TEST_F(MergeCommand, WritesTheWeightedMeanIn32Bits) {
-  // 1 + 3/4096 needs more digits than half has.
-  const float fine = 1.0f + 1.0f / 1024.0f;
-  const std::string a = picture("a.exr", 2, 1.0f, {{"spp", "16"}, {"seed", "1"}});
-  const std::string b = picture("b.exr", 2, fine, {{"spp", "48"}, {"seed", "2"}});
-  const Output output = expect_done(merge({"-o", path("m.exr"), a, b}));
-  EXPECT_EQ(output.out + output.err, "");
-  const renderer::Picture merged = renderer::read_image(path("m.exr"));
-  EXPECT_EQ(merged.layers[0].values, std::vector<float>(6, 1.0f + 3.0f / 4096.0f));
-  EXPECT_EQ(merged.metadata.at("spp"), "64");
-  EXPECT_EQ(merged.metadata.at("seed"), "1,2");
-}
-
 TEST_F(MergeCommand, EqualSeedsGiveAWarning) {
   const std::string a = picture("a.exr", 1, 1.0f, {{"spp", "1"}, {"seed", "7"}});
   const std::string b = picture("b.exr", 1, 2.0f, {{"spp", "1"}, {"seed", "7"}});

@@ -95,18 +95,6 @@ std::uint32_t corner_count(const GateLayout& layout, const Mesh& mesh, std::uint
   return count;
 }
 
-TEST(Clusters, ClustersOfACoarserLevelConsistOfFinerClusters) {
-  const Mesh mesh = testing::sphere(96, 1);
-  const GateLayout layout =
-      layout_of(testing::one_instance(mesh), 0.2f, {adaptive_part(5), kAdaptive, adaptive_part(2)});
-  std::map<std::uint32_t, std::set<std::uint32_t>> coarse;
-  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
-    for (std::uint32_t c = 0; c < 3; ++c)
-      for (const std::uint32_t level : {0u, 2u})
-        coarse[corner(layout, t, c, 1)].insert(1000000 * level + corner(layout, t, c, level));
-  for (const auto& [fine, its_coarse] : coarse) EXPECT_EQ(its_coarse.size(), 2u);
-}
-
 TEST(Clusters, ACoarserLevelHasFewerNodes) {
   const Mesh mesh = testing::grid(160, 16);
   const GateLayout layout =

@@ -217,14 +217,6 @@ TEST(MeshColorCounts, SharedNodesAreVerticesAndEdgesAndInteriors) {
     }
 }
 
-TEST(MeshColorCounts, NodesOfATriangleAreCornersEdgesAndInterior) {
-  const std::array<std::array<std::uint32_t, 2>, 8> expected = {
-      {{1, 3}, {2, 6}, {3, 10}, {4, 15}, {8, 45}, {16, 153}, {32, 561}, {64, 2145}}};
-  for (const auto& [r, count] : expected) EXPECT_EQ(nodes_per_triangle(r), count);
-  for (std::uint32_t r = 1; r <= kMaxResolution; ++r)
-    EXPECT_EQ(nodes_per_triangle(r), 3 + 3 * nodes_per_edge(r) + nodes_per_interior(r));
-}
-
 TEST(MeshColorEdges, TwoTrianglesAgreeAlongTheirEdgeInAllOrientations) {
   // Corners 0 and 1 are shared, 2 and 3 are not; each triangle in all six orders of its corners.
   for (std::uint32_t r = 1; r <= kMaxResolution; ++r) {

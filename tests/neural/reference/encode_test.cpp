@@ -15,7 +15,6 @@ namespace gatelight::neural::reference {
 namespace {
 
 using testing::find_model_case;
-using testing::Random;
 
 std::vector<double> auxiliary(const AuxiliaryInput& input, const Point& point) {
   std::vector<double> inputs;
@@ -124,31 +123,6 @@ HashGridLayout hash_layout(std::uint32_t base, float growth, std::uint32_t level
   return build_hash_grid_layout(options);
 }
 
-const HashGridLayout kHashLayouts[] = {hash_layout(2, 2.0f, 8, 10), hash_layout(1, 1.0f, 3, 3),
-                                       hash_layout(3, 1.37f, 12, 12), hash_layout(16, 2.0f, 16, 5)};
-
-TEST(HashGridEncoding, IndicesLieInTheirLevelAndWeightsSumToOne) {
-  for (const HashGridLayout& layout : kHashLayouts) {
-    Random random{11};
-    for (int i = 0; i < 2000; ++i) {
-      std::array<double, 3> position;
-      for (double& x : position) x = i < 8 ? i >> (&x - position.data()) & 1 : random.unit();
-      const std::vector<NodeWeight> nodes = hash_grid_nodes(layout, position);
-      ASSERT_EQ(nodes.size(), 8 * layout.levels.size());
-      for (std::size_t l = 0; l < layout.levels.size(); ++l) {
-        double sum = 0;
-        for (std::size_t t = 8 * l; t < 8 * l + 8; ++t) {
-          ASSERT_GE(nodes[t].node, layout.levels[l].first_node);
-          ASSERT_LT(nodes[t].node, layout.levels[l].first_node + layout.levels[l].entries);
-          ASSERT_GE(nodes[t].weight, 0.0);
-          sum += nodes[t].weight;
-        }
-        ASSERT_NEAR(sum, 1.0, 1e-12);
-      }
-    }
-  }
-}
-
 TEST(HashGridEncoding, PointsLieHalfACellFromTheLattice) {
   // Base 3: x scale + 0.5 = 2x + 0.5. (0, 0.5, 0.875) lies at (0.5, 1.5, 2.25).
   const HashGridLayout layout = hash_layout(3, 1.0f, 1, 10);
@@ -184,37 +158,6 @@ TEST(HashGridEncoding, HashedEntriesFollowThePrimes) {
   EXPECT_EQ(hash_grid_entry(level, 0, 0, 1), 805459861u % 1000);
   // 3 ^ (2 x 2654435761 mod 2^32) ^ (4 x 805459861 mod 2^32) = 3 ^ 1013904226 ^ 3221839444
   EXPECT_EQ(hash_grid_entry(level, 3, 2, 4), (3u ^ 1013904226u ^ 3221839444u) % 1000);
-}
-
-TEST(HashGridEncoding, IsContinuousAcrossCells) {
-  for (const HashGridLayout& layout : kHashLayouts) {
-    Random random{13};
-    std::vector<double> features(layout.node_count);
-    for (double& feature : features) feature = random.between(-1, 1);
-    const auto value = [&](const std::array<double, 3>& position, std::size_t level) {
-      const std::vector<NodeWeight> nodes = hash_grid_nodes(layout, position);
-      double sum = 0;
-      for (std::size_t t = 8 * level; t < 8 * level + 8; ++t)
-        sum += nodes[t].weight * features[nodes[t].node];
-      return sum;
-    };
-    for (std::size_t l = 0; l < layout.levels.size(); ++l) {
-      const double scale = layout.levels[l].scale;
-      if (scale == 0) continue;
-      for (int i = 0; i < 60; ++i) {
-        // Both sides of a cell's face.
-        std::array<double, 3> below = {random.unit(), random.unit(), random.unit()};
-        const std::size_t axis = random.below(3);
-        const double face = (std::floor(below[axis] * scale) + 0.5) / scale;
-        if (face >= 1) continue;
-        std::array<double, 3> above = below;
-        const double step = 1e-9 / scale;
-        below[axis] = face - step;
-        above[axis] = face + step;
-        EXPECT_NEAR(value(below, l), value(above, l), 1e-6);
-      }
-    }
-  }
 }
 
 }  // namespace

@@ -213,24 +213,5 @@ TEST(Gradient, OfNetworkInputsAgreesWithCentralDifferences) {
   }
 }
 
-TEST(Gradient, OfNodesThatNoPointReadsIsZero) {
-  for (const char* name : {"nrc", "gate_L3_stack_4_2_1", "hash_F4", "gate_L5_per_triangle"}) {
-    SCOPED_TRACE(name);
-    Problem problem(testing::find_model_case(name), 3);
-    const Model& model = problem.model;
-    std::vector<double> gradients(problem.parameters.size(), 0.0);
-    std::set<std::size_t> read;
-    for (std::size_t r = 0; r < kRecords; ++r) {
-      add_record_gradient(model, Loss::l2, problem.parameters, problem.points[r], problem.targets[r], 1.0,
-                          gradients);
-      for (const NodeWeight& node : encoding_nodes(model, problem.points[r]))
-        if (node.weight != 0) read.insert(node.node);
-    }
-    for (std::size_t node = 0; node < model.parameters.node_count; ++node)
-      for (std::size_t l = 0; l < model.parameters.features; ++l)
-        EXPECT_EQ(gradients[node * model.parameters.features + l] != 0.0, read.contains(node));
-  }
-}
-
 }  // namespace
 }  // namespace gatelight::neural::reference

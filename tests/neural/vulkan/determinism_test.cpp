@@ -2,7 +2,6 @@
 // devices.
 
 #include "neural/trainer.h"
-#include "neural/vulkan/feature_store.h"
 #include "tests/neural/vulkan/agreement.h"
 #include "tests/support/stored_state.h"
 #include "tests/support/temporary_folder.h"
@@ -99,14 +98,6 @@ TEST_F(VulkanDeterminism, ImportedStatesAreExportedAndTrainedWithTheSameBits) {
       EXPECT_TRUE(same_bits(other->export_state(), gone_on));
     }
   }
-}
-
-TEST(VulkanMemory, CountsOfTrianglesTakeEightBytesForEach) {
-  const ModelCase c = find_model_case("nrc");
-  TrainingOptions options;
-  const std::uint64_t without = vulkan::feature_bytes(*c.model, options);
-  options.count_triangles = true;
-  EXPECT_EQ(vulkan::feature_bytes(*c.model, options), without + 8 * c.model->gate.triangle_count);
 }
 
 TEST_F(VulkanDeterminism, AnImportedInitialStateStartsAtTheMeanAgain) {

@@ -1,15 +1,13 @@
 #pragma once
-// Sessions that train a small cache, their answers and states.
+// Sessions that train a small cache, and their answers.
 
 #include <gtest/gtest.h>
 
-#include <cstring>
 #include <span>
 #include <vector>
 
 #include "renderer/cache/cache_session.h"
 #include "tests/renderer/cache/small_worlds.h"
-#include "tests/support/cached_state.h"
 #include "tests/support/statistics.h"
 
 namespace gatelight::renderer {
@@ -54,10 +52,6 @@ inline double mean_answer(CacheSession& session, const testing::ViewedWorld& vie
   for (const float a : answers_of(session, seen_points(viewed, session))) moments.add(static_cast<double>(a));
   EXPECT_GT(moments.count(), 300u);
   return moments.mean();
-}
-
-inline bool same_bits(const std::vector<float>& a, const std::vector<float>& b) {
-  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(float)) == 0;
 }
 
 }  // namespace gatelight::renderer

@@ -93,15 +93,6 @@ TEST(CachedPassEdges, AnUnlitSceneIsLearnedAsBlack) {
   }
 }
 
-TEST(CachedPassEdges, BlackSurfacesAreBlack) {
-  expect_right_picture(closed_box(Color::Zero(), Color::Zero()), Color::Zero(), Color::Zero(), 0.0);
-}
-
-TEST(CachedPassEdges, SurfacesThatReflectNothingShowTheirEmission) {
-  expect_right_picture(closed_box(Color::Zero(), Color(1.0f, 2.0f, 3.0f)), Color::Zero(),
-                       Color(1.0f, 2.0f, 3.0f), 1e-5);
-}
-
 double lit_by(float brightness, std::uint32_t seed) {
   SceneBuilder builder = closed_box(Color::Constant(0.5f), Color::Constant(brightness));
   RenderOptions options = small(Integrator::nrc);

@@ -17,7 +17,8 @@ inline PointInputs with_positions() {
 
 struct MadeRecords {
   MadeRecords(const testing::ViewedWorld& viewed, const RenderOptions& options, const RecordRequest& request,
-              const AnswerPoints& answer = {}, const StoredSurfaces& stored = {}) {
+              const AnswerPoints& answer = {}) {
+    const StoredSurfaces stored;
     const CachedPaths paths(viewed.world, cached_paths_options(options), stored);
     const std::vector<neural::Sides> sides(viewed.world.scene.instances.size(), neural::Sides::both);
     const TrainingPoints points(viewed.world, viewed.camera, viewed.region, options, sides, nullptr);
@@ -26,12 +27,10 @@ struct MadeRecords {
     records.trace(batch);
     records.finish(answer, batch);
     records.split(request, batch);
-    rays = records.rays();
   }
   std::uint32_t instance(std::size_t i) const { return batch.records.surface(i) / 2; }
 
   RecordBatch batch;
-  RayCounts rays;
 };
 
 }  // namespace gatelight::renderer

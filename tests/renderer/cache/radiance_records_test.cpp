@@ -190,26 +190,5 @@ TEST(RadianceRecords, AnyNumberOfThreadsGivesTheSameBits) {
   }
 }
 
-TEST(RadianceRecords, AReusedBatchHasTheResultsOfANewOne) {
-  const ViewedWorld viewed(room());
-  const RenderOptions options;
-  const StoredSurfaces stored;
-  const CachedPaths paths(viewed.world, cached_paths_options(options), stored);
-  const TrainingPoints points(viewed.world, viewed.camera, viewed.region, options, {}, nullptr);
-  RadianceRecords records(paths, points, options, with_positions());
-  RecordBatch used;
-  for (const std::size_t count : {2000u, 300u}) {
-    const RecordRequest request{.step = count, .points = count};
-    records.begin(request, used);
-    records.trace(used);
-    records.finish({}, used);
-    records.split(request, used);
-  }
-  const MadeRecords fresh(viewed, options, {.step = 300, .points = 300});
-  EXPECT_EQ(used.targets, fresh.batch.targets);
-  EXPECT_EQ(used.records.size(), fresh.batch.records.size());
-  EXPECT_EQ(used.paths_traced, fresh.batch.paths_traced);
-}
-
 }  // namespace
 }  // namespace gatelight::renderer

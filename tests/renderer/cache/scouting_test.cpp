@@ -16,9 +16,9 @@ using testing::SceneBuilder;
 using testing::view_from;
 using testing::ViewedWorld;
 
-RenderOptions nrc() {
+RenderOptions by(Integrator integrator) {
   RenderOptions options;
-  options.integrator = Integrator::nrc;
+  options.integrator = integrator;
   return options;
 }
 
@@ -30,22 +30,22 @@ ScoutReport scouted(const ViewedWorld& viewed, const RenderOptions& options) {
 
 /// A double-sided room, seen from inside, with a double-sided card that stands free, a double-sided block
 /// that is seen from outside, a mirrored single-sided copy of the card, and a thing behind the walls.
-SceneBuilder rooms(float scale = 1.0f) {
+SceneBuilder rooms() {
   SceneBuilder builder;
   scene::Material both = SceneBuilder::lambert(Color::Constant(0.5f), Color::Constant(1.0f));
   both.double_sided = true;
   const int twofold = builder.material(both);
   const int single = builder.material(SceneBuilder::lambert(Color::Constant(0.4f)));
-  builder.box(twofold, scale * Vec3(-2, -1, -3), scale * Vec3(2, 2, 3), true);
-  builder.quad(twofold, scale * Vec3(-1.5f, -0.5f, 0), scale * Vec3(1, 0, 0), scale * Vec3(0, 1, 0));
-  builder.box(twofold, scale * Vec3(0.5f, -0.9f, -1), scale * Vec3(1.2f, 0, -0.3f));
-  builder.quad(single, scale * Vec3(-0.4f, -0.5f, -0.5f), scale * Vec3(-1, 0, 0), scale * Vec3(0, 1, 0));
+  builder.box(twofold, Vec3(-2, -1, -3), Vec3(2, 2, 3), true);
+  builder.quad(twofold, Vec3(-1.5f, -0.5f, 0), Vec3(1, 0, 0), Vec3(0, 1, 0));
+  builder.box(twofold, Vec3(0.5f, -0.9f, -1), Vec3(1.2f, 0, -0.3f));
+  builder.quad(single, Vec3(-0.4f, -0.5f, -0.5f), Vec3(-1, 0, 0), Vec3(0, 1, 0));
   scene::Instance& mirrored = builder.scene().instances.back();
   mirrored.baked = false;
   mirrored.swaps_handedness = true;
   mirrored.transform.scale(Vec3(-1, 1, 1));
-  builder.box(twofold, scale * Vec3(5, 0, 0), scale * Vec3(6, 1, 1));
-  builder.scene().cameras.push_back(view_from(scale * Vec3(0.3f, 0.5f, 2.5f), Vec3::Zero()));
+  builder.box(twofold, Vec3(5, 0, 0), Vec3(6, 1, 1));
+  builder.scene().cameras.push_back(view_from(Vec3(0.3f, 0.5f, 2.5f), Vec3::Zero()));
   return builder;
 }
 
@@ -58,7 +58,7 @@ const std::vector<Sides>& expected_sides() {
 
 TEST(Scouting, SidesAreStoredWhereTheyAreMet) {
   const ViewedWorld viewed(rooms());
-  const ScoutReport report = scouted(viewed, nrc());
+  const ScoutReport report = scouted(viewed, by(Integrator::nrc));
   EXPECT_EQ(report.setup.sides, expected_sides());
   EXPECT_GT(report.rays.camera, 0u);
   EXPECT_GT(report.rays.bounce, 0u);
@@ -66,9 +66,7 @@ TEST(Scouting, SidesAreStoredWhereTheyAreMet) {
 
 TEST(Scouting, ForOcclusionOnlySidesVisibleToTheCameraAreStored) {
   const ViewedWorld viewed(rooms());
-  RenderOptions options;
-  options.integrator = Integrator::nao;
-  const ScoutReport report = scouted(viewed, options);
+  const ScoutReport report = scouted(viewed, by(Integrator::nao));
   EXPECT_EQ(report.setup.sides,
             (std::vector<Sides>{Sides::front, Sides::front, Sides::front, Sides::back, Sides::none}));
   EXPECT_EQ(report.setup.target_scale, 1.0f);
@@ -77,7 +75,7 @@ TEST(Scouting, ForOcclusionOnlySidesVisibleToTheCameraAreStored) {
 
 TEST(Scouting, WithoutScoutingAllSidesThatMaterialsShowAreStored) {
   const ViewedWorld viewed(rooms());
-  RenderOptions options = nrc();
+  RenderOptions options = by(Integrator::nrc);
   options.cache.scout = false;
   EXPECT_EQ(scouted(viewed, options).setup.sides,
             (std::vector<Sides>{Sides::both, Sides::both, Sides::both, Sides::back, Sides::both}));
@@ -89,13 +87,13 @@ TEST(Scouting, ABackThatIsMetIsStoredAsItsFront) {
               Vec3(-2, -1, -3), Vec3(2, 2, 3));  // fronts outwards, seen from inside
   builder.scene().cameras.push_back(view_from(Vec3(0.3f, 0.5f, 2.5f), Vec3::Zero()));
   const ViewedWorld viewed(builder);
-  EXPECT_EQ(scouted(viewed, nrc()).setup.sides, std::vector<Sides>{Sides::front});
+  EXPECT_EQ(scouted(viewed, by(Integrator::nrc)).setup.sides, std::vector<Sides>{Sides::front});
 }
 
 TEST(Scouting, TargetsAreScaledToAMeanOfOne) {
   for (const float brightness : {1e4f, 1e-6f}) {
     const ViewedWorld viewed(testing::closed_furnace(0.5f, brightness));
-    RenderOptions options = nrc();
+    RenderOptions options = by(Integrator::nrc);
     options.max_depth = 64;
     // Every target's mean is Le / (1 - a).
     const ScoutReport report = scouted(viewed, options);
@@ -107,7 +105,7 @@ TEST(Scouting, TargetsAreScaledToAMeanOfOne) {
 
 TEST(Scouting, TheNumberOfRecordsIsPredicted) {
   const ViewedWorld viewed(testing::closed_furnace(0.5f, 1.0f));
-  RenderOptions options = nrc();
+  RenderOptions options = by(Integrator::nrc);
   options.min_depth = 64;
   options.max_depth = 10;
   options.cache.self_training.vertices = 3;
@@ -121,24 +119,9 @@ TEST(Scouting, TheNumberOfRecordsIsPredicted) {
   EXPECT_FLOAT_EQ(scouted(viewed, options).setup.records_per_path, 1.0f);
 }
 
-TEST(Scouting, NodeSpacingScalesWithTheScene) {
-  const ViewedWorld small(rooms());
-  const ViewedWorld large(rooms(1000.0f));
-  for (const Integrator integrator : {Integrator::nrc, Integrator::nao}) {
-    RenderOptions options;
-    options.integrator = integrator;
-    const CacheSetup a = scouted(small, options).setup;
-    const CacheSetup b = scouted(large, options).setup;
-    EXPECT_EQ(a.sides, b.sides);
-    EXPECT_EQ(a.spacing_scales, b.spacing_scales);
-    EXPECT_NEAR(b.node_spacing / a.node_spacing, 1000.0f, 2.0f);
-    EXPECT_NEAR(b.target_scale / a.target_scale, 1.0f, 0.01f);
-  }
-}
-
 TEST(Scouting, AGivenSpacingIsKept) {
   const ViewedWorld viewed(rooms());
-  RenderOptions options = nrc();
+  RenderOptions options = by(Integrator::nrc);
   options.cache.node_spacing = 0.37f;
   const CacheSetup setup = scouted(viewed, options).setup;
   EXPECT_EQ(setup.node_spacing, 0.37f);
@@ -151,7 +134,7 @@ TEST(Scouting, NodesOfOcclusionLieTwiceAsClose) {
                Vec3(18, 0, 0), Vec3(0, 18, 0));
   builder.scene().cameras.push_back(view_from(Vec3(0, 0, 5), Vec3::Zero()));
   const ViewedWorld viewed(builder, {.constant = Color::Ones()});
-  RenderOptions options = nrc();
+  RenderOptions options = by(Integrator::nrc);
   options.width = viewed.region.width();
   options.height = viewed.region.height();
   const float of_radiance = scouted(viewed, options).setup.node_spacing;
@@ -168,8 +151,7 @@ TEST(Scouting, NodesLieCloserNearTheCamera) {
   builder.scene().cameras.push_back(view_from(Vec3(0, 0.2f, 1), Vec3::Zero()));
   const ViewedWorld viewed(builder, {.constant = Color::Ones()});
   for (const Integrator integrator : {Integrator::nrc, Integrator::nao}) {
-    RenderOptions options;
-    options.integrator = integrator;
+    RenderOptions options = by(integrator);
     options.width = viewed.region.width();
     options.height = viewed.region.height();
     const CacheSetup setup = scouted(viewed, options).setup;
@@ -183,7 +165,7 @@ TEST(Scouting, NodesLieCloserNearTheCamera) {
 
 TEST(Scouting, OptionsOfTrainingPointsDoNotMatter) {
   const ViewedWorld viewed(rooms());
-  RenderOptions options = nrc();
+  RenderOptions options = by(Integrator::nrc);
   const CacheSetup plain = scouted(viewed, options).setup;
   options.cache.candidates = 16;
   options.cache.samples_per_point = 4;
@@ -199,9 +181,7 @@ TEST(Scouting, ScenesWithoutVisibleSurfacesHaveAValidSetup) {
   const auto check = [](const SceneBuilder& builder, Sides expected) {
     const ViewedWorld viewed(builder, {.constant = Color::Ones()});
     for (const Integrator integrator : {Integrator::nrc, Integrator::nao}) {
-      RenderOptions options;
-      options.integrator = integrator;
-      const CacheSetup setup = scouted(viewed, options).setup;
+      const CacheSetup setup = scouted(viewed, by(integrator)).setup;
       for (const Sides s : setup.sides) EXPECT_EQ(s, expected);
       for (const float f :
            {setup.node_spacing, setup.target_scale, setup.records_per_path, setup.records_per_short_path}) {

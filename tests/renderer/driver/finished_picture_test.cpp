@@ -6,8 +6,6 @@
 #include <atomic>
 #include <cmath>
 
-#include "renderer/denoise/denoiser.h"
-#include "renderer/driver/denoise_picture.h"
 #include "renderer/metrics/compare.h"
 #include "renderer/render.h"
 #include "renderer/settings/enum_names.h"
@@ -62,44 +60,6 @@ TEST_P(FinishedPicture, IsDenoisedAndItsSamplesStayLayers) {
   EXPECT_NE(finished.layers[0].values, samples.layers[0].values);
   EXPECT_EQ(finished.find("raw")->values, samples.layers[0].values);
   EXPECT_EQ(render(denoised()).layers[0].values, finished.layers[0].values);
-}
-
-/// `gatelight denoise` gives the same picture from the layers.
-TEST_P(FinishedPicture, IsReproducedFromItsLayersToTheBit) {
-  GATELIGHT_NEEDS_DENOISER();
-  Denoiser denoiser(load_oidn(testing::denoiser_place()), 2);
-  int row = 0;
-  for (const Prefilter prefilter : {Prefilter::accurate, Prefilter::none, Prefilter::fast}) {
-    for (const Kind background : {Kind::scene, Kind::transparent, Kind::color}) {
-      // Each prefilter and each background is met by both.
-      const int supersampling = 1 + row++ % 2;
-      RenderOptions o = denoised({Aov::denoising});
-      o.denoise.prefilter = prefilter;
-      o.denoise.supersampling = supersampling;
-      o.background = {.kind = background, .color = {0.1f, 0.2f, 0.3f}};
-      o.environment.constant = Color::Constant(0.3f);
-      const Picture finished = render(o);
-      Picture samples = finished;
-      samples.layers[0].values.assign(samples.layers[0].values.size(), 0.0f);
-      const auto again = denoise_picture(samples, {own_layers(samples)}, denoiser,
-                                         {.prefilter = prefilter,
-                                          .filter = o.filter,
-                                          .filter_width = o.filter_width,
-                                          .background = o.background});
-      ASSERT_TRUE(again);
-      ASSERT_EQ(again->layers.size(), 1u);
-      EXPECT_EQ(again->layers[0].channels, finished.layers[0].channels);
-      EXPECT_EQ(again->layers[0].values, finished.layers[0].values)
-          << enum_name(prefilter) << supersampling << static_cast<int>(background);
-      // The samples themselves do not depend on the denoiser.
-      RenderOptions traced = o;
-      traced.denoise.denoiser = DenoiserKind::none;
-      if (supersampling > 1) continue;
-      const Picture plain = render(traced);
-      EXPECT_EQ(plain.find("denoising-color")->values, finished.find("denoising-color")->values);
-      EXPECT_EQ(plain.find("denoising-normal")->values, finished.find("denoising-normal")->values);
-    }
-  }
 }
 
 TEST_P(FinishedPicture, SupersampledHasTheSizeAndTheSamplesOfThePicture) {

@@ -51,12 +51,5 @@ TEST(DecidingOptions, OptionsOfTheCacheDoNotDecideThePathTracersPicture) {
   EXPECT_EQ(changed(change, Integrator::path), "");
 }
 
-TEST(DecidingOptions, TheInstructionSetIsNamed) {
-  Metadata metadata;
-  add_texts(metadata, "option", deciding_options({}, {}, {{"isa", "avx2"}}));
-  EXPECT_EQ(list_differences(metadata, "option", deciding_options({}, {}, {{"isa", "avx512"}})),
-            "isa: file avx2, expected avx512");
-}
-
 }  // namespace
 }  // namespace gatelight::renderer
