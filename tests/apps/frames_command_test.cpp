@@ -22,6 +22,11 @@ class Frames : public FolderTest {
         {GATELIGHT_SOURCE_DIR "/data/" + scene + ".glb"}, words_of(steps_, {}, flags)));
   }
 
+  static Output render_plainly(const Words& flags) {
+    return run_gatelight(
+        words_of("render {} --size 40x24 --spp 2", {GATELIGHT_SOURCE_DIR "/data/moving-room.glb"}, flags));
+  }
+
   void expect_same_file(const std::string& a, const std::string& b) const {
     EXPECT_TRUE(read_file(path(a)) == read_file(path(b))) << a << " and " << b;
   }
@@ -64,9 +69,8 @@ TEST_F(Frames, GoOnFromTheCacheOfTheFrameBeforeWithStepsThatAreChosen) {
 
 TEST_F(Frames, WithoutACacheResumeToo) {
   const auto run = [&](const std::string& output, const Words& more) {
-    return run_gatelight(
-        words_of("render {} --size 40x24 --spp 2 --denoiser auto --fps 6 --reproducible --exr float -o {}",
-                 {GATELIGHT_SOURCE_DIR "/data/moving-room.glb", path(output)}, more));
+    return render_plainly(
+        words_of("--denoiser auto --fps 6 --reproducible --exr float -o {}", {path(output)}, more));
   };
   expect_done(run("a-%d.exr", {"--frames", "0:2"}));
   expect_done(run("b-%d.exr", {"--frames", "0:1", "--checkpoint", path("state")}));
@@ -90,10 +94,7 @@ TEST_F(Frames, AFailureOfOneDoesNotLoseTheOthers) {
 }
 
 TEST_F(Frames, AreShownWithOneExposure) {
-  const auto run = [&](const Words& more) {
-    return run_gatelight(words_of("render {} --size 40x24 --spp 2 --fps 6",
-                                  {GATELIGHT_SOURCE_DIR "/data/moving-room.glb"}, more));
-  };
+  const auto run = [&](const Words& more) { return render_plainly(words_of("--fps 6", {}, more)); };
   expect_done(run({"--frames", "0:1", "--exposure", "auto", "-o", path("a-%d.png"), "--stats",
                    path("a-%d.json"), "--checkpoint", path("state")}));
   const auto exposure = [&](const char* file) {
@@ -111,9 +112,8 @@ TEST_F(Frames, AreShownWithOneExposure) {
 
 TEST_F(Frames, ThatAreThereStayAsTheyAre) {
   const auto run = [&](const Words& more) {
-    return run_gatelight(words_of(
-        "render {} --size 40x24 --spp 1 --reproducible -o {} -o {}",
-        {GATELIGHT_SOURCE_DIR "/data/moving-room.glb", path("shot_%02d/f.exr"), path("f-%d.png")}, more));
+    return render_plainly(
+        words_of("--reproducible -o {} -o {}", {path("shot_%02d/f.exr"), path("f-%d.png")}, more));
   };
   expect_done(run({"--frames", "1,3-4"}));
   const std::string third = read_file(path("shot_03/f.exr"));

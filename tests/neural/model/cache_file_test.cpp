@@ -1,4 +1,4 @@
-// A cache file restores each state to the bit.
+// A cache file restores each state to the bit; a trainer checks its parts.
 
 #include <gtest/gtest.h>
 
@@ -52,6 +52,16 @@ TEST(CacheFile, TrainingContinuesBitForBit) {
       EXPECT_TRUE(same_bits(state_of(loaded), state_of(straight)));
     }
   }
+}
+
+TEST(Trainer, RefusesMissingPartsAndBadOptions) {
+  const ModelCase c = tiny_case();
+  const auto held = [&] { return std::make_unique<StoredState>(c.model, TrainingOptions{}, ModelState{}); };
+  EXPECT_THROW(Trainer(nullptr, {}, held()), BadConfiguration);
+  EXPECT_THROW(Trainer(c.model, {}, nullptr), BadConfiguration);
+  TrainingOptions options;
+  options.adam.beta1 = 1.0f;
+  EXPECT_THROW(Trainer(c.model, options, held()), BadConfiguration);
 }
 
 }  // namespace

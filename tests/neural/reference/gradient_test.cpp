@@ -8,7 +8,6 @@
 
 #include <cmath>
 #include <functional>
-#include <set>
 
 #include "neural/model/state.h"
 #include "neural/reference/encode.h"

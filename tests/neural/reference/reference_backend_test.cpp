@@ -15,13 +15,9 @@
 namespace gatelight::neural::reference {
 namespace {
 
-using testing::Fate;
 using testing::find_model_case;
 using testing::make_batch;
 using testing::OwnedBatch;
-
-constexpr const char* kCases[] = {
-    "nrc", "nao", "hash_F4", "gate_with_everything", "gate_L5_per_triangle", "plain_roughness_one_blob_8"};
 
 TEST(ReferenceBackend, BatchesWithSpansOfTheWrongLengthAreRefusedAndChangeNothing) {
   const auto model = find_model_case("gate_with_everything").model;
@@ -64,32 +60,6 @@ TEST(ReferenceBackend, OptionsOutOfRangeAreRefused) {
   refuses([](TrainingOptions& o) { o.average.ramp = 0; });
   refuses([](TrainingOptions& o) { o.max_target = 0; });
   refuses([](TrainingOptions& o) { o.feature_step = FeatureStep::per_triangle; });  // no triangles in a grid
-}
-
-TEST(ReferenceBackend, BadRecordsAreCountedAndNeverReachTheState) {
-  for (const char* name : kCases) {
-    SCOPED_TRACE(name);
-    const auto model = find_model_case(name).model;
-    const auto mixed = make_reference_backend(model, {}), clean = make_reference_backend(model, {});
-    std::uint64_t rejected = 0, clipped = 0;
-    for (std::uint64_t step = 0; step < 4; ++step) {
-      const OwnedBatch batch = make_batch(
-          *model, 60, step, {.nonfinite = 0.25f, .unstored = 0.2f, .beyond = 0.1f, .border = 0.1f});
-      const StepStatistics statistics = mixed->train(batch.training());
-      const StepStatistics expected = clean->train(good_records(batch).training());
-      EXPECT_EQ(statistics.rejected, batch.count(Fate::rejected));
-      EXPECT_EQ(statistics.unstored, batch.count(Fate::unstored));
-      EXPECT_EQ(statistics.clipped, batch.count(Fate::clipped));
-      EXPECT_EQ(statistics.records, batch.count(Fate::accepted) + batch.count(Fate::clipped));
-      EXPECT_EQ(statistics.loss, expected.loss);
-      EXPECT_EQ(statistics.touched_nodes, expected.touched_nodes);
-      EXPECT_EQ(mixed->export_state(), clean->export_state());
-      rejected += statistics.rejected;
-      clipped += statistics.clipped;
-    }
-    EXPECT_GT(rejected, 0u);
-    EXPECT_GT(clipped, 0u);
-  }
 }
 
 TEST(ReferenceBackend, TargetsBeyondTheLimitAreClampedToIt) {
@@ -164,23 +134,6 @@ TEST(ReferenceBackend, WeightsWithANonFiniteGradientAreNotChanged) {
     EXPECT_TRUE(std::isfinite(after.second_moments[p]));
   }
   EXPECT_EQ(after.node_steps, state.node_steps);
-}
-
-TEST(ReferenceBackend, CountsEachTriangleOnceAStep) {
-  const auto model = find_model_case("nrc").model;
-  TrainingOptions options{.count_triangles = true};
-  const auto backend = make_reference_backend(model, options);
-  std::vector<std::uint32_t> expected(model->gate.triangle_count, 0);
-  for (std::uint64_t step = 0; step < 3; ++step) {
-    const OwnedBatch batch = make_batch(*model, 40, step, {.nonfinite = 0.2f, .unstored = 0.2f});
-    backend->train(batch.training());
-    std::vector<bool> touched(expected.size(), false);
-    for (std::size_t r = 0; r < batch.size(); ++r)
-      if (batch.fates[r] == Fate::accepted)
-        touched[model->gate.surfaces[batch.surfaces[r]].first_triangle + batch.triangles[r]] = true;
-    for (std::size_t t = 0; t < expected.size(); ++t) expected[t] += touched[t] ? 1 : 0;
-  }
-  EXPECT_EQ(backend->export_state().triangle_steps, expected);
 }
 
 TEST(ReferenceBackend, AnswersAreClampedToTheirRange) {

@@ -15,21 +15,6 @@ using testing::find_model_case;
 using testing::make_batch;
 using testing::OwnedBatch;
 
-TEST(ReferenceState, FeaturesKeptInHalfPrecisionAreRoundedOnImport) {
-  const auto model = find_model_case("nrc").model;
-  for (const FeaturePrecision precision : {FeaturePrecision::fp16, FeaturePrecision::fp32}) {
-    TrainingOptions options{.precision = precision};
-    const auto backend = make_reference_backend(model, options);
-    ModelState state = backend->export_state();
-    state.parameters.front() = 0.1f;
-    state.averages.front() = 0.3f;
-    backend->import_state(state);
-    const bool rounds = precision == FeaturePrecision::fp16;
-    EXPECT_EQ(backend->export_state().parameters.front(), rounds ? half_to_float(float_to_half(0.1f)) : 0.1f);
-    EXPECT_EQ(backend->export_state().averages.front(), rounds ? half_to_float(float_to_half(0.3f)) : 0.3f);
-  }
-}
-
 TEST(ReferenceState, QueriesReadRoundedFeaturesAndMastersStayInFp32) {
   const auto model = find_model_case("nrc").model;
   const auto holds = [&](const ModelState& state) {

@@ -36,15 +36,6 @@ TEST(AliasTable, DrawsEachIndexByItsWeight) {
   }
 }
 
-TEST(AliasTable, ReturnsTheProbabilityOfEachIndex) {
-  for (const std::vector<double>& weights : kWeights) {
-    const AliasTable table(weights);
-    for (std::uint32_t i = 0; i < weights.size(); ++i) {
-      EXPECT_FLOAT_EQ(table.probability(i), static_cast<float>(weights[i] / sum_of(weights)));
-    }
-  }
-}
-
 TEST(AliasTable, DrawsNothingOfWeightZeroAtTheEndsOfTheNumbers) {
   const std::vector<double> weights = {0.0, 1.0, 1.0, 1.0, 0.0};
   const AliasTable table(weights);
