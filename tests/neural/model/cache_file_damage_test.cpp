@@ -37,9 +37,7 @@ TEST(DamagedCacheFile, AForeignFileAndAnotherVersionAreRefused) {
   expect_refused(text("network", "[}"), {"network"});
   expect_refused([](ModelContent& content) { content.tensors.pop_back(); }, {"steps"});
   expect_refused(
-      [](ModelContent& content) {
-        content.tensors.push_back({.name = "more", .shape = {0}, .data = {}});
-      },
+      [](ModelContent& content) { content.tensors.push_back({.name = "more", .shape = {0}, .data = {}}); },
       {"more"});
   write_safetensors(folder / "a", {}, {{"format", "pt"}});
   expect_load_refused(trainer, folder / "a", {"format", "pt"});
