@@ -4,7 +4,6 @@
 #include <filesystem>
 #include <limits>
 
-#include "renderer/image/image_read.h"
 #include "tests/support/folder_test.h"
 #include "tests/support/picture_files.h"
 #include "tests/support/process.h"
@@ -27,6 +26,7 @@ TEST_F(MergeCommand, EqualSeedsGiveAWarning) {
   const std::string b = picture("b.exr", 1, 2.0f, {{"spp", "1"}, {"seed", "7"}});
   const Output output = expect_done(merge({"-o", path("m.exr"), a, b}));
   expect_messages(output.error_lines(), {{"a.exr", "b.exr", "7"}});
+  EXPECT_EQ(beauty_of(path("m.exr")), std::vector<float>(3, 1.5f));
 }
 
 TEST_F(MergeCommand, WrongFilesAreRefused) {
