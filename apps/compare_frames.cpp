@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "apps/measure_pair.h"
-#include "apps/reports/compare_frames_report.h"
+#include "apps/reports/compare_report.h"
 #include "apps/settings/picture_output.h"
 #include "apps/terminal/errors.h"
 #include "renderer/image/image_read.h"

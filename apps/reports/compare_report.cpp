@@ -2,7 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
+#include <numeric>
 
 #include "apps/reports/json.h"
 #include "apps/terminal/text.h"
@@ -13,51 +17,84 @@ namespace {
 
 using nlohmann::ordered_json;
 
-const renderer::FlipResult& flip_of(const CompareReport& report, Metric metric) {
-  return metric == Metric::flip ? report.flip.value() : report.hdr_flip.value();
+/// Of a metric that was not requested, or of SSIM where the picture is smaller than its window.
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+double mean_of(const std::optional<renderer::FlipResult>& flip) {
+  return flip ? flip->summary.mean : kNone;
 }
 
-bool is_flip(Metric metric) {
-  return metric == Metric::flip || metric == Metric::hdr_flip;
+/// A number of a comparison, with its key in the JSON.
+struct ErrorValue {
+  Metric metric;
+  const char* key;
+  double (*of)(const CompareReport&);
+};
+constexpr ErrorValue kErrorValues[] = {
+    {Metric::mse, "mse", [](const CompareReport& r) { return r.errors.mse; }},
+    {Metric::rel_mse, "rel_mse", [](const CompareReport& r) { return r.errors.rel_mse; }},
+    {Metric::psnr, "psnr", [](const CompareReport& r) { return r.errors.psnr; }},
+    {Metric::mean, "mean_error", [](const CompareReport& r) { return r.errors.mean_error; }},
+    {Metric::mean, "mean_difference", [](const CompareReport& r) { return r.errors.mean_difference; }},
+    {Metric::max, "max_error", [](const CompareReport& r) { return r.errors.max_error; }},
+    {Metric::ssim, "ssim", [](const CompareReport& r) { return r.ssim.value_or(kNone); }},
+    {Metric::flip, "flip", [](const CompareReport& r) { return mean_of(r.flip); }},
+    {Metric::hdr_flip, "hdr_flip", [](const CompareReport& r) { return mean_of(r.hdr_flip); }}};
+
+/// The values of the requested metrics, in their order.
+std::vector<ErrorValue> requested_values(const CompareReport& report) {
+  std::vector<ErrorValue> values;
+  for (const Metric metric : report.metrics) {
+    std::copy_if(std::begin(kErrorValues), std::end(kErrorValues), std::back_inserter(values),
+                 [metric](const ErrorValue& value) { return value.metric == metric; });
+  }
+  return values;
 }
 
-ordered_json ssim_json(const CompareReport& report) {
-  if (!report.ssim) return nullptr;
-  return {{"mean", *report.ssim},
-          {"exposure", report.flip_options.exposure},
-          {"tonemap", enum_name(report.flip_options.tonemap)}};
+/// FLIP with all its numbers, where the value is one.
+const renderer::FlipResult* flip_of(const CompareReport& report, Metric metric) {
+  if (metric == Metric::flip && report.flip) return &*report.flip;
+  return metric == Metric::hdr_flip && report.hdr_flip ? &*report.hdr_flip : nullptr;
 }
 
-ordered_json flip_json(const CompareReport& report, Metric metric) {
-  const renderer::FlipResult& flip = flip_of(report, metric);
-  const renderer::FlipSummary& s = flip.summary;
-  ordered_json json = {{"mean", s.mean},
-                       {"weighted_median", s.weighted_median},
-                       {"first_quartile", s.first_quartile},
-                       {"third_quartile", s.third_quartile},
-                       {"min", s.min},
-                       {"max", s.max},
-                       {"pixels_per_degree", report.flip_options.pixels_per_degree}};
-  if (metric == Metric::flip) {
+/// A mean with the options by which the metric sees the pictures.
+ordered_json look_json(const CompareReport& report, Metric metric, double mean) {
+  if (std::isnan(mean)) return nullptr;
+  ordered_json json = {{"mean", mean}};
+  const renderer::FlipResult* flip = flip_of(report, metric);
+  if (flip) {
+    json["weighted_median"] = flip->summary.weighted_median;
+    json["first_quartile"] = flip->summary.first_quartile;
+    json["third_quartile"] = flip->summary.third_quartile;
+    json["min"] = flip->summary.min;
+    json["max"] = flip->summary.max;
+  }
+  if (metric != Metric::ssim) json["pixels_per_degree"] = report.flip_options.pixels_per_degree;
+  if (metric != Metric::hdr_flip) {
     json["exposure"] = report.flip_options.exposure;
     json["tonemap"] = enum_name(report.flip_options.tonemap);
-  } else {
-    json["start_exposure"] = flip.start_exposure;
-    json["stop_exposure"] = flip.stop_exposure;
-    json["exposures"] = flip.exposures;
+  } else if (flip) {
+    json["start_exposure"] = flip->start_exposure;
+    json["stop_exposure"] = flip->stop_exposure;
+    json["exposures"] = flip->exposures;
   }
   return json;
 }
 
-std::string flip_text(const CompareReport& report, Metric metric) {
-  const std::string name = renderer::name_of(kMetrics, metric);
-  const renderer::FlipSummary& s = flip_of(report, metric).summary;
-  return fmt::format("{:<16} {:.6g}, weighted quartiles {:.6g} {:.6g} {:.6g}, from {:.6g} to {:.6g}\n", name,
-                     s.mean, s.first_quartile, s.weighted_median, s.third_quartile, s.min, s.max);
+void add_value(ordered_json& json, const CompareReport& report, const ErrorValue& value, double number) {
+  const bool is_look =
+      value.metric == Metric::ssim || value.metric == Metric::flip || value.metric == Metric::hdr_flip;
+  json[value.key] = is_look ? look_json(report, value.metric, number) : json_number(number);
+  if (value.metric == Metric::psnr) json["psnr_peak"] = renderer::kPsnrPeak;
 }
 
-}  // namespace
+std::string value_text(const ErrorValue& value, double number, const std::string& more) {
+  if (std::isnan(number)) return fmt::format("{:<16} -\n", value.key);
+  const char* unit = value.metric == Metric::psnr ? " dB" : "";
+  return fmt::format("{:<16} {:.6g}{}{}\n", value.key, number, unit, more);
+}
 
+/// What the JSON begins with.
 ordered_json head_json(const CompareReport& report) {
   const renderer::ErrorMetrics& errors = report.errors;
   return {{"schema", 1},
@@ -69,36 +106,79 @@ ordered_json head_json(const CompareReport& report) {
           {"nonfinite", {{"reference", errors.nonfinite_reference}, {"test", errors.nonfinite_test}}}};
 }
 
+/// Of each frame.
+std::vector<double> numbers_of(const CompareFramesReport& report, const ErrorValue& value) {
+  std::vector<double> numbers;
+  for (const CompareReport& frame : report.frames) numbers.push_back(value.of(frame));
+  return numbers;
+}
+
+double mean_of(const std::vector<double>& numbers) {
+  return std::accumulate(numbers.begin(), numbers.end(), 0.0) / static_cast<double>(numbers.size());
+}
+
+/// The smallest and the largest number with their frames.
+std::string range_text(const CompareFramesReport& report, const std::vector<double>& numbers) {
+  const auto [low, high] = std::minmax_element(numbers.begin(), numbers.end());
+  const auto frame = [&](auto place) {
+    return report.numbers[static_cast<std::size_t>(place - numbers.begin())];
+  };
+  return fmt::format(", from {:.6g} (frame {}) to {:.6g} (frame {})", *low, frame(low), *high, frame(high));
+}
+
+}  // namespace
+
 std::string compare_json(const CompareReport& report) {
   ordered_json json = head_json(report);
-  if (report.bias_rel_mse) {
-    json["halves"] = {report.references.back(), report.tests.back()};
-  }
-  for (const Metric metric : report.metrics) {
-    for (const ErrorValue& value : kErrorValues) {
-      if (value.metric == metric) json[value.key] = json_number(report.errors.*value.member);
-    }
-    if (metric == Metric::psnr) json["psnr_peak"] = renderer::kPsnrPeak;
-    if (metric == Metric::ssim) json["ssim"] = ssim_json(report);
-    if (is_flip(metric)) json[renderer::name_of(kMetrics, metric)] = flip_json(report, metric);
-  }
+  if (report.bias_rel_mse) json["halves"] = {report.references.back(), report.tests.back()};
+  for (const ErrorValue& value : requested_values(report)) add_value(json, report, value, value.of(report));
   if (report.bias_rel_mse) json["bias_rel_mse"] = json_number(*report.bias_rel_mse);
   return json_text(json) + "\n";
 }
 
 std::string compare_text(const CompareReport& report) {
   std::string text;
-  for (const Metric metric : report.metrics) {
-    for (const ErrorValue& value : kErrorValues) {
-      if (value.metric != metric) continue;
-      text += fmt::format("{:<16} {:.6g}{}\n", value.key, report.errors.*value.member,
-                          metric == Metric::psnr ? " dB" : "");
+  for (const ErrorValue& value : requested_values(report)) {
+    std::string more;
+    if (const renderer::FlipResult* flip = flip_of(report, value.metric)) {
+      const renderer::FlipSummary& s = flip->summary;
+      more = fmt::format(", weighted quartiles {:.6g} {:.6g} {:.6g}, from {:.6g} to {:.6g}", s.first_quartile,
+                         s.weighted_median, s.third_quartile, s.min, s.max);
     }
-    if (metric == Metric::ssim)
-      text += report.ssim ? fmt::format("{:<16} {:.6g}\n", "ssim", *report.ssim) : "ssim             -\n";
-    if (is_flip(metric)) text += flip_text(report, metric);
+    text += value_text(value, value.of(report), more);
   }
   if (report.bias_rel_mse) text += fmt::format("{:<16} {:.6g}\n", "bias_rel_mse", *report.bias_rel_mse);
+  return text;
+}
+
+std::string compare_frames_json(const CompareFramesReport& report) {
+  ordered_json json = head_json(report.whole);
+  ordered_json frames = ordered_json::array();
+  for (const int number : report.numbers) frames.push_back({{"frame", number}});
+  for (const ErrorValue& value : requested_values(report.whole)) {
+    const std::vector<double> numbers = numbers_of(report, value);
+    add_value(json, report.whole, value, mean_of(numbers));
+    for (std::size_t i = 0; i < numbers.size(); ++i) frames[i][value.key] = json_number(numbers[i]);
+  }
+  if (report.temporal) {
+    json["temporal_low"] = report.temporal->low;
+    json["temporal_high"] = report.temporal->high;
+  }
+  json["frames"] = frames;
+  return json_text(json) + "\n";
+}
+
+std::string compare_frames_text(const CompareFramesReport& report) {
+  std::string text = fmt::format("{:<16} {}\n", "frames", report.frames.size());
+  for (const ErrorValue& value : requested_values(report.whole)) {
+    const std::vector<double> numbers = numbers_of(report, value);
+    const bool varies = value.metric == Metric::rel_mse || value.metric == Metric::flip;
+    text += value_text(value, mean_of(numbers), varies ? range_text(report, numbers) : "");
+  }
+  if (report.temporal) {
+    text += fmt::format("{:<16} {:.6g}\n", "temporal_low", report.temporal->low);
+    text += fmt::format("{:<16} {:.6g}\n", "temporal_high", report.temporal->high);
+  }
   return text;
 }
 

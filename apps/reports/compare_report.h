@@ -1,7 +1,6 @@
 #pragma once
 // The results of `compare` as text and as JSON.
 
-#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -9,6 +8,7 @@
 #include "apps/settings/parsing.h"
 #include "renderer/metrics/compare.h"
 #include "renderer/metrics/flip.h"
+#include "renderer/metrics/temporal.h"
 
 namespace gatelight::apps {
 
@@ -18,20 +18,6 @@ inline constexpr renderer::Choice<Metric> kMetrics[] = {
     {"mse", Metric::mse},   {"rel_mse", Metric::rel_mse},   {"psnr", Metric::psnr},
     {"mean", Metric::mean}, {"max", Metric::max},           {"ssim", Metric::ssim},
     {"flip", Metric::flip}, {"hdr_flip", Metric::hdr_flip}, {"temporal", Metric::temporal}};
-
-/// The metrics that are plain numbers, with their keys in the JSON.
-struct ErrorValue {
-  Metric metric;
-  const char* key;
-  double renderer::ErrorMetrics::*member;
-};
-inline constexpr ErrorValue kErrorValues[] = {
-    {Metric::mse, "mse", &renderer::ErrorMetrics::mse},
-    {Metric::rel_mse, "rel_mse", &renderer::ErrorMetrics::rel_mse},
-    {Metric::psnr, "psnr", &renderer::ErrorMetrics::psnr},
-    {Metric::mean, "mean_error", &renderer::ErrorMetrics::mean_error},
-    {Metric::mean, "mean_difference", &renderer::ErrorMetrics::mean_difference},
-    {Metric::max, "max_error", &renderer::ErrorMetrics::max_error}};
 
 struct CompareReport {
   std::vector<std::string> references;  ///< files: one, or two halves
@@ -47,10 +33,19 @@ struct CompareReport {
   std::optional<double> bias_rel_mse;  ///< of halves
 };
 
-/// What both the report of two pictures and that of frames begin with.
-nlohmann::ordered_json head_json(const CompareReport& report);
-
 std::string compare_text(const CompareReport& report);
 std::string compare_json(const CompareReport& report);
+
+/// Of `compare --frames`.
+struct CompareFramesReport {
+  /// Names with the place of a frame's number, sums of pixels, and what the frames share.
+  CompareReport whole;
+  std::vector<int> numbers;           ///< of the frames, in the order of comparison; at least one
+  std::vector<CompareReport> frames;  ///< without the errors of each pixel
+  std::optional<renderer::TemporalDeviation> temporal;  ///< present where requested
+};
+
+std::string compare_frames_text(const CompareFramesReport& report);
+std::string compare_frames_json(const CompareFramesReport& report);
 
 }  // namespace gatelight::apps

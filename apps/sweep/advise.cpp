@@ -52,25 +52,19 @@ std::string describe(const MeasuredRun& run) {
 }  // namespace
 
 Advice choose(const std::vector<MeasuredRun>& candidates, const AdviceLimits& limits) {
-  // The worst seed counts, because the command has only one of them.
-  const auto error = [&](const MeasuredRun* run) {
-    return limits.max_error ? error_of(*run).most : error_of(*run).value;
+  // Those that are too slow are behind those with too large an error.
+  const auto rank_of = [&](const MeasuredRun& run) -> std::pair<int, double> {
+    const double seconds = seconds_of(run);
+    // The worst seed counts, because the command has only one of them.
+    const double error = limits.max_error ? error_of(run).most : error_of(run).value;
+    if (limits.max_seconds && seconds > *limits.max_seconds) return {2, seconds};
+    if (limits.max_error && error > *limits.max_error) return {1, error};
+    return {0, limits.max_error ? seconds : error};
   };
-  const auto faster = [](const MeasuredRun* a, const MeasuredRun* b) {
-    return seconds_of(*a) < seconds_of(*b);
-  };
-  const auto better = [&](const MeasuredRun* a, const MeasuredRun* b) { return error(a) < error(b); };
-  std::vector<const MeasuredRun*> all, fast, good;
-  for (const MeasuredRun& run : candidates) all.push_back(&run);
-  std::copy_if(all.begin(), all.end(), std::back_inserter(fast), [&](const MeasuredRun* run) {
-    return !limits.max_seconds || seconds_of(*run) <= *limits.max_seconds;
-  });
-  std::copy_if(fast.begin(), fast.end(), std::back_inserter(good),
-               [&](const MeasuredRun* run) { return !limits.max_error || error(run) <= *limits.max_error; });
-  if (fast.empty()) return {*std::min_element(all.begin(), all.end(), faster), false};
-  if (good.empty()) return {*std::min_element(fast.begin(), fast.end(), better), false};
-  if (limits.max_error) return {*std::min_element(good.begin(), good.end(), faster), true};
-  return {*std::min_element(good.begin(), good.end(), better), true};
+  const auto best =
+      std::min_element(candidates.begin(), candidates.end(),
+                       [&](const MeasuredRun& a, const MeasuredRun& b) { return rank_of(a) < rank_of(b); });
+  return {&*best, rank_of(*best).first == 0};
 }
 
 AdviceReport give_advice(const ordered_json& results, const AdviceLimits& limits) {

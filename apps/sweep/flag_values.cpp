@@ -100,14 +100,19 @@ NamedRun parse_run(const std::string& text) {
   return run;
 }
 
-std::vector<NamedRun> read_runs(const std::string& file) {
-  std::ifstream lines(file);
-  if (!lines) throw InputError(fmt::format("cannot read '{}', expected lines of 'NAME: FLAGS'", file));
+std::vector<NamedRun> parse_runs(std::istream& lines) {
   std::vector<NamedRun> runs;
   for (std::string line; std::getline(lines, line);) {
     line = trimmed(line);
     if (!line.empty() && line.front() != '#') runs.push_back(parse_run(line));
   }
+  return runs;
+}
+
+std::vector<NamedRun> read_runs(const std::string& file) {
+  std::ifstream lines(file);
+  if (!lines) throw InputError(fmt::format("cannot read '{}', expected lines of 'NAME: FLAGS'", file));
+  std::vector<NamedRun> runs = parse_runs(lines);
   if (runs.empty())
     throw InputError(fmt::format("'{}' holds no runs, expected lines of 'NAME: FLAGS'", file));
   return runs;

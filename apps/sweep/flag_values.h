@@ -1,6 +1,7 @@
 #pragma once
 // Flags of `render` with their values, and the texts of axes and of named runs.
 
+#include <iosfwd>
 #include <string>
 #include <utility>
 #include <vector>
@@ -46,8 +47,10 @@ struct NamedRun {
 /// Parses "NAME: --flag value --flag=value". Which flags there are is not checked here. Throws BadOption.
 NamedRun parse_run(const std::string& text);
 
-/// The lines of a file, each a run. Empty lines and those that begin with # are left out. Throws InputError
-/// where it cannot be read, and BadOption.
+/// Lines that are a run each. Empty ones and those that begin with # are left out. Throws BadOption.
+std::vector<NamedRun> parse_runs(std::istream& lines);
+
+/// The runs of a file. Throws InputError where it cannot be read or holds none, and BadOption.
 std::vector<NamedRun> read_runs(const std::string& file);
 
 }  // namespace gatelight::apps

@@ -74,39 +74,50 @@ void check_vary(const std::string& flag) {
   }
 }
 
-struct NamedAxis {
-  std::string given_as;
-  SweepAxis axis;
-};
+/// By what each flag is set.
+using Setters = std::map<std::string, std::string>;
 
-std::vector<NamedAxis> read_axes(const SweepArguments& words) {
-  std::vector<NamedAxis> axes;
+/// Throws BadOption for a flag that something else sets too.
+void require_free(const Setters& setters, const std::string& flag, const std::string& given_as,
+                  const std::string& value) {
+  const auto other = setters.find(flag);
+  if (other == setters.end()) return;
+  throw BadOption({given_as, value, fmt::format("is set by `{}` too", other->second), "one of them"});
+}
+
+/// Each row must be what its name promises, so nothing else may set its flags.
+Setters setters_of_rows(const std::vector<SweepBlock>& rows) {
+  // The preset of `render` in each row decides the integrator.
+  Setters setters = {{"--integrator", "preset"}};
+  for (const SweepBlock& row : rows) {
+    for (const auto& [flag, value] : row.base) setters.emplace(flag, "preset");
+    for (const auto& [flag, value] : row.run.value_or(FlagValues())) setters.emplace(flag, "preset");
+  }
+  return setters;
+}
+
+/// Adds the axes to the setters.
+std::vector<SweepAxis> read_axes(const SweepArguments& words, Setters& setters) {
+  std::vector<SweepAxis> axes;
+  const auto add = [&](const std::string& given_as, SweepAxis axis) {
+    require_free(setters, axis.flag, given_as, axis.flag);
+    setters.emplace(axis.flag, given_as);
+    axes.push_back(std::move(axis));
+  };
   for (const auto& [flag, text] : words.axes) {
     const std::string name = flag.name + 2;
-    axes.push_back({name, {flag.varies, split_values(name, text, flag.varies)}});
+    add(name, {flag.varies, split_values(name, text, flag.varies)});
   }
   for (const std::string& text : words.vary) {
     SweepAxis axis = parse_vary(text);
     check_vary(axis.flag);
-    axes.push_back({"vary", std::move(axis)});
-  }
-  for (std::size_t i = 0; i < axes.size(); ++i) {
-    const std::string& flag = axes[i].axis.flag;
-    for (std::size_t j = 0; j < i; ++j) {
-      if (axes[j].axis.flag != flag) continue;
-      throw BadOption(
-          {axes[i].given_as, flag, fmt::format("is varied by `{}` too", axes[j].given_as), "one of them"});
-    }
-    if (const std::string* value = find_flag(words.base, flag)) {
-      throw BadOption({flag.substr(2), *value,
-                       fmt::format("is for all cells and excludes `{}`", axes[i].given_as), "one of them"});
-    }
+    add("vary", std::move(axis));
   }
   return axes;
 }
 
 /// Reads "SCENE:NAME=VALUE", the value of a flag for one scene.
-void read_scene_flag(const std::string& text, const std::vector<NamedAxis>& axes, SweepRequest& request) {
+void read_scene_flag(const std::string& text, const Setters& setters, SweepRequest& request) {
   const std::size_t equals = text.find('=');
   const std::size_t colon = equals == std::string::npos ? equals : text.rfind(':', equals);
   if (colon == std::string::npos || equals < colon + 2) {
@@ -125,54 +136,13 @@ void read_scene_flag(const std::string& text, const std::vector<NamedAxis>& axes
   if (flag == "--seed" || !is_base_flag(flag)) {
     throw BadOption({"for", flag, "is not a flag that applies to all cells of a scene"});
   }
-  for (const NamedAxis& named : axes) {
-    if (named.axis.flag != flag) continue;
-    throw BadOption({"for", flag, fmt::format("is varied by `{}`", named.given_as), "one of them"});
-  }
+  require_free(setters, flag, "for", flag);
   set_flag(scene->flags, flag, text.substr(equals + 1));
-}
-
-/// Refuses flags that any row of the preset sets: each row must be what its name promises.
-void refuse_flags_of_rows(const SweepArguments& words, const std::vector<SweepBlock>& rows,
-                          const std::vector<NamedAxis>& axes, const SweepRequest& request) {
-  // The preset of `render` in each row decides the integrator.
-  std::set<std::string> flags = {"--integrator"};
-  for (const SweepBlock& row : rows) {
-    for (const auto& [flag, value] : row.base) flags.insert(flag);
-    for (const auto& [flag, value] : row.run.value_or(FlagValues())) flags.insert(flag);
-    for (const SweepAxis& axis : row.axes) flags.insert(axis.flag);
-  }
-  const auto check = [&](const std::string& flag, const std::string& given_as) {
-    if (!flags.contains(flag)) return;
-    throw BadOption({given_as, flag, fmt::format("defines rows of `preset` {}", words.preset),
-                     "other flags or no preset"});
-  };
-  for (const auto& [flag, value] : words.base) check(flag, flag.substr(2));
-  for (const NamedAxis& named : axes) check(named.axis.flag, named.given_as);
-  for (const SweepScene& scene : request.scenes) {
-    for (const auto& [flag, value] : scene.flags) check(flag, "for");
-  }
 }
 
 bool names_flag(const SweepBlock& block, const std::string& flag) {
   return find_flag(block.base, flag) || std::any_of(block.axes.begin(), block.axes.end(),
                                                     [&](const SweepAxis& axis) { return axis.flag == flag; });
-}
-
-/// Flags on the command line override those of a preset.
-void override_block(SweepBlock& block, const FlagValues& base, const std::vector<NamedAxis>& axes) {
-  const auto forget = [&](const std::string& flag) {
-    drop_flag(block.base, flag);
-    std::erase_if(block.axes, [&](const SweepAxis& axis) { return axis.flag == flag; });
-  };
-  for (const auto& [flag, value] : base) {
-    forget(flag);
-    block.base.emplace_back(flag, value);
-  }
-  for (const NamedAxis& named : axes) {
-    forget(named.axis.flag);
-    block.axes.push_back(named.axis);
-  }
 }
 
 void add_defaults(SweepBlock& block) {
@@ -295,13 +265,13 @@ SweepRequest make_request(const SweepArguments& words) {
   } else if (request.blocks.empty()) {
     request.blocks.push_back({.train_steps = kDefaultSteps});
   }
-  SweepArguments with_preset = words;
-  with_preset.base = base;
-  const std::vector<NamedAxis> axes = read_axes(with_preset);
-  for (const std::string& text : words.scene_flags) read_scene_flag(text, axes, request);
-  if (preset) refuse_flags_of_rows(words, request.blocks, axes, request);
+  Setters setters = preset ? setters_of_rows(request.blocks) : Setters();
+  const std::vector<SweepAxis> axes = read_axes(words, setters);
+  for (const std::string& text : words.scene_flags) read_scene_flag(text, setters, request);
+  for (const auto& [flag, value] : base) require_free(setters, flag, flag.substr(2), value);
   for (SweepBlock& block : request.blocks) {
-    override_block(block, base, axes);
+    block.base.insert(block.base.end(), base.begin(), base.end());
+    block.axes.insert(block.axes.end(), axes.begin(), axes.end());
     if (block.run && !words.train_steps.empty())
       throw BadOption({"train-steps", "", "named runs have their own", "it in the flags of a `run`"});
     if (block.run) continue;

@@ -54,16 +54,48 @@ SceneSweep::SceneSweep(const PlannedScene& planned, const SweepPlan& plan, const
       series_errors_(planned.series.size()) {}
 
 bool SceneSweep::open() {
-  load();
-  if (!decide_memory()) return false;
-  name_cells();
+  const auto read = [&] {
+    load();
+    is_open_ = decide_memory();
+    if (is_open_) name_cells();
+  };
+  if (plan_.scenes.size() == 1) {
+    read();
+  } else if (const std::string error = why_failed(read); !error.empty()) {
+    fail_all(error);
+  }
   return stop_signal() == 0;
+}
+
+void SceneSweep::close() {
+  is_open_ = false;
+  scene_ = {};
+  fingerprints_.clear();
+  for (auto& [key, known] : references_) known.picture.reset();
 }
 
 void SceneSweep::load() {
   progress_.phase(fmt::format("load {}", planned_.name));
-  const RenderSettings& settings = series_.front().settings;
-  scene_ = scene::load_gltf(planned_.file, settings.load);
+  series_ = planned_.series;
+  scene_ = scene::load_gltf(planned_.file, series_.front().settings.load);
+}
+
+void SceneSweep::fail_all(const std::string& error) {
+  close();
+  reference_keys_.clear();
+  references_.clear();
+  cells_.clear();
+  for (std::size_t i = 0; i < series_.size(); ++i) {
+    for (const std::uint32_t seed : plan_.seeds) {
+      for (const int point : series_[i].points) {
+        // Without a scene there is no fingerprint; no other cell has such a name.
+        const CellPlace place{
+            planned_, series_[i], seed, point, fmt::format("{}-{}-{}-{}", planned_.name, i, seed, point), ""};
+        cells_.push_back({place, failed_record(place, error)});
+      }
+    }
+  }
+  warn(fmt::format("{}: all of its cells failed: {}", planned_.name, error));
 }
 
 const renderer::SceneFingerprint& SceneSweep::fingerprint_of(const RenderSettings& settings) {
@@ -119,6 +151,9 @@ std::optional<Reference> SceneSweep::find_given() {
 
 void SceneSweep::name_cells() {
   const std::optional<Reference> given = find_given();
+  references_.clear();
+  reference_keys_.clear();
+  cells_.clear();
   for (std::size_t i = 0; i < series_.size(); ++i) {
     const PlannedSeries& series = series_[i];
     const renderer::SceneFingerprint& fingerprint = fingerprint_of(series.settings);
@@ -162,6 +197,8 @@ std::optional<nlohmann::ordered_json> SceneSweep::read_done(const CellPlace& pla
 
 std::vector<SceneSweep::Run> SceneSweep::missing_runs() const {
   std::vector<Run> runs;
+  // A scene that could not be read has none.
+  if (references_.empty()) return runs;
   std::size_t cell = 0;
   for (std::size_t series = 0; series < series_.size(); ++series) {
     for (std::size_t seed = 0; seed < plan_.seeds.size(); ++seed) {

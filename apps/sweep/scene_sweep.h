@@ -24,8 +24,12 @@ class SceneSweep {
   SceneSweep& operator=(const SceneSweep&) = delete;
 
   /// Loads the scene, names its cells and reads those that are done. Returns false where a signal ended it.
-  /// Throws what loading throws, and BadOption and others for a --reference that does not fit.
+  /// Where the scene cannot be read or a --reference does not fit, all its cells fail; the only scene of a
+  /// plan throws that instead.
   bool open();
+  bool is_open() const { return is_open_; }
+  /// Frees the memory of the scene. Results and tasks stay.
+  void close();
   /// The tasks of missing cells; empty where all cells are done.
   std::vector<SweepTask> tasks() const;
   /// Makes the missing cells and calls `after_run` after each run. Returns false where a signal ended it. An
@@ -53,6 +57,7 @@ class SceneSweep {
   };
 
   void load();
+  void fail_all(const std::string& error);
   const renderer::SceneFingerprint& fingerprint_of(const RenderSettings& settings);
   bool decide_memory();
   std::optional<Reference> find_given();
@@ -90,6 +95,7 @@ class SceneSweep {
   const SweepPlan& plan_;
   const SweepSettings& settings_;
   SweepProgress& progress_;
+  bool is_open_ = false;
   scene::Scene scene_;
   std::map<std::string, renderer::SceneFingerprint> fingerprints_;  ///< by environment
   std::vector<PlannedSeries> series_;                               ///< with resolved memory

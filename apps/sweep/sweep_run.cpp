@@ -3,8 +3,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <deque>
 #include <filesystem>
-#include <memory>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -74,52 +75,34 @@ class SweepRun {
       : settings_(settings),
         plan_(plan),
         command_(std::move(command)),
-        progress_(settings.progress, settings.quiet),
-        scenes_(plan.scenes.size()),
-        tasks_(plan.scenes.size()) {
-    for (std::size_t i = 0; i < scenes_.size(); ++i) {
-      const PlannedScene& scene = plan.scenes[i];
-      scenes_[i].scene = {{"name", scene.name}, {"file", scene.file}, {"references", ordered_json::array()}};
-    }
+        progress_(settings.progress, settings.quiet) {
+    for (const PlannedScene& scene : plan.scenes) scenes_.emplace_back(scene, plan, settings, progress_);
   }
 
   int run() {
     prepare_folders();
     const FolderLock lock(settings_.folder);
-    if (!survey()) {
-      // The results of an earlier call are more complete, and stay.
-      progress_.clear();
-      print_notice(fmt::format("stopped by signal {} before the first cell; the same command continues",
-                               stop_signal()),
-                   kSignalBase + stop_signal());
-      return kSignalBase + stop_signal();
-    }
+    // The results of an earlier call are more complete than none, and stay.
+    if (!survey()) return stopped("before the first cell");
     print_versions();
     bool finished = true;
     bool written = false;
-    for (std::size_t i = 0; finished && i < plan_.scenes.size(); ++i) {
-      if (tasks_[i].empty()) continue;
-      finished = run_scene(i);
-      write_results();
-      write_report();
-      written = true;
+    for (std::size_t i = 0; finished && i < scenes_.size(); ++i) {
+      if (!scenes_[i].tasks().empty()) {
+        finished = run_scene(i);
+        write_all();
+        written = true;
+      }
+      scenes_[i].close();
     }
-    if (!written) {
-      write_results();
-      write_report();
-    }
-    std::size_t cells = 0, failed = 0;
-    for (const SceneResults& scene : scenes_) {
-      cells += scene.cells.size();
-      for (const ordered_json& cell : scene.cells) failed += is_done(cell) ? 0 : 1;
-    }
-    if (!finished) {
-      progress_.clear();
-      print_notice(fmt::format("stopped by signal {} with {} of {} cells in '{}'; the same command continues",
-                               stop_signal(), cells - failed, plan_.cell_count(), settings_.folder),
-                   kSignalBase + stop_signal());
-      return kSignalBase + stop_signal();
-    }
+    if (!written) write_all();
+    const ordered_json made = results()["cells"];
+    const std::size_t cells = made.size();
+    const auto failed = static_cast<std::size_t>(
+        std::count_if(made.begin(), made.end(), [](const ordered_json& cell) { return !is_done(cell); }));
+    if (!finished)
+      return stopped(
+          fmt::format("with {} of {} cells in '{}'", cells - failed, plan_.cell_count(), settings_.folder));
     progress_.done(settings_.folder, cells, failed);
     if (failed > 0) {
       print_failure(
@@ -131,7 +114,11 @@ class SweepRun {
     return kDone;
   }
 
-  ordered_json results() const { return make_results(command_, scenes_); }
+  ordered_json results() const {
+    std::vector<SceneResults> scenes;
+    for (const SceneSweep& scene : scenes_) scenes.push_back(scene.results());
+    return make_results(command_, scenes);
+  }
 
  private:
   void prepare_folders() const {
@@ -142,44 +129,31 @@ class SweepRun {
       check_writable(folder / file);
   }
 
+  /// Says that a signal ended the sweep. Returns the exit code.
+  int stopped(const std::string& when) {
+    const int code = kSignalBase + stop_signal();
+    progress_.clear();
+    print_notice(fmt::format("stopped by signal {} {}; the same command goes on", stop_signal(), when), code);
+    return code;
+  }
+
   /// Finds the cells of all scenes that are done, so that results are always complete. Returns false where a
   /// signal ended it.
   bool survey() {
     // The first scene comes last and stays open.
-    for (std::size_t i = plan_.scenes.size(); i-- > 0;) {
-      open_scene(i);
-      if (stop_signal() != 0) return false;
+    for (std::size_t i = scenes_.size(); i-- > 0;) {
+      if (!scenes_[i].open()) return false;
+      if (i > 0) scenes_[i].close();
     }
     return true;
-  }
-
-  /// Opens a scene as open_. open_ stays empty where a signal ended it, or where the scene cannot be read:
-  /// then its cells fail and the other scenes continue.
-  void open_scene(std::size_t index) {
-    const PlannedScene& planned = plan_.scenes[index];
-    open_.reset();
-    auto scene = std::make_unique<SceneSweep>(planned, plan_, settings_, progress_);
-    try {
-      if (!scene->open()) return;
-    } catch (const OutputError&) {
-      throw;
-    } catch (...) {
-      // With a single scene this is an ordinary error.
-      if (plan_.scenes.size() == 1) throw;
-      fail_scene(index, describe_current_exception().message);
-      return;
-    }
-    tasks_[index] = scene->tasks();
-    scenes_[index] = scene->results();
-    open_ = std::move(scene);
-    open_index_ = index;
   }
 
   /// Plans the tasks of this scene and the following ones.
   void plan_tasks(std::size_t scene) {
     std::vector<SweepTask> rest;
-    for (std::size_t i = scene; i < tasks_.size(); ++i) {
-      rest.insert(rest.end(), tasks_[i].begin(), tasks_[i].end());
+    for (std::size_t i = scene; i < scenes_.size(); ++i) {
+      const std::vector<SweepTask> tasks = scenes_[i].tasks();
+      rest.insert(rest.end(), tasks.begin(), tasks.end());
     }
     progress_.plan_rest(rest);
   }
@@ -187,12 +161,11 @@ class SweepRun {
   void print_versions() const {
     std::size_t count = 0;
     std::set<std::string> others;
-    for (const SceneResults& scene : scenes_) {
-      for (const ordered_json& cell : scene.cells) {
-        if (!is_done(cell) || cell["version"] == version()) continue;
-        ++count;
-        others.insert(cell["version"].get<std::string>());
-      }
+    const ordered_json all = results();
+    for (const ordered_json& cell : all["cells"]) {
+      if (!is_done(cell) || cell["version"] == version()) continue;
+      ++count;
+      others.insert(cell["version"].get<std::string>());
     }
     if (count == 0) return;
     log_warning(fmt::format("{} cell{} made by gatelight {}; remove their files in '{}' to measure again",
@@ -202,60 +175,38 @@ class SweepRun {
 
   /// Returns false where a signal ended it.
   bool run_scene(std::size_t index) {
+    SceneSweep& scene = scenes_[index];
     // The file may have changed since the survey, so it is opened again.
-    if (!open_ || open_index_ != index) open_scene(index);
-    if (!open_) return stop_signal() == 0;
+    if (!scene.is_open() && !scene.open()) return false;
     plan_tasks(index);
     Clock::time_point written = Clock::now();
-    const bool finished = open_->run([&] {
-      scenes_[index] = open_->results();
+    return scene.run([&] {
       if (seconds_since(written) < kResultsInterval) return;
       write_results();
       written = Clock::now();
     });
-    scenes_[index] = open_->results();
-    return finished;
   }
 
-  void fail_scene(std::size_t index, const std::string& error) {
-    const PlannedScene& planned = plan_.scenes[index];
-    tasks_[index].clear();
-    scenes_[index].cells.clear();
-    for (const PlannedSeries& series : planned.series) {
-      for (const std::uint32_t seed : plan_.seeds) {
-        for (const int point : series.points) {
-          // Without a scene there is no fingerprint; no other cell has such a name.
-          const std::string id =
-              fmt::format("{}-{}-{}-{}", planned.name, &series - planned.series.data(), seed, point);
-          scenes_[index].cells.push_back(failed_record({planned, series, seed, point, id, ""}, error));
-        }
-      }
-    }
-    progress_.clear();
-    log_warning(fmt::format("{}: all of its cells failed: {}", planned.name, error));
-  }
-
-  void write_results() const {
+  /// Returns what it wrote.
+  ordered_json write_results() const {
     const fs::path folder = settings_.folder;
-    const ordered_json all = results();
+    ordered_json all = results();
     write_file_atomically(folder / "results.json", json_text(all) + "\n");
     write_file_atomically(folder / "results.csv", results_csv(all));
     write_file_atomically(folder / "results.md", results_table(all));
+    return all;
   }
 
-  void write_report() const {
-    const fs::path folder = settings_.folder;
-    write_file_atomically(folder / "report.html", make_report(results(), settings_.folder));
+  void write_all() const {
+    write_file_atomically(fs::path(settings_.folder) / "report.html",
+                          make_report(write_results(), settings_.folder));
   }
 
   const SweepSettings& settings_;
   const SweepPlan& plan_;
   std::vector<std::string> command_;
   SweepProgress progress_;
-  std::vector<SceneResults> scenes_;
-  std::vector<std::vector<SweepTask>> tasks_;  ///< missing tasks of each scene
-  std::unique_ptr<SceneSweep> open_;           ///< one scene at a time is in memory
-  std::size_t open_index_ = 0;
+  std::deque<SceneSweep> scenes_;  ///< one at a time is in memory
 };
 
 AdviceReport advice_of_folder(const std::string& folder, const AdviceLimits& limits) {
