@@ -8,6 +8,7 @@
 #include "apps/reports/compare_report.h"
 #include "apps/settings/picture_output.h"
 #include "apps/terminal/errors.h"
+#include "apps/terminal/terminal.h"
 #include "renderer/image/image_read.h"
 #include "renderer/metrics/temporal.h"
 

@@ -3,7 +3,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "apps/reports/cache_report_text.h"
+#include "apps/reports/cache_statistics.h"
 #include "apps/reports/picture_report.h"
 #include "apps/reports/scene_report.h"
 #include "apps/settings/complete_settings.h"

@@ -6,7 +6,6 @@
 
 #include "apps/terminal/errors.h"
 #include "apps/terminal/log.h"
-#include "renderer/metrics/ssim.h"
 
 namespace gatelight::apps {
 namespace {
@@ -37,17 +36,6 @@ void measure_errors(CompareReport& report, const NamedPicture& reference, const 
   }
   if (errors.pixels == 0) throw InputError(fmt::format("{}; nothing is left to compare", counts));
   log_warning(fmt::format("{}; they are ignored", counts));
-}
-
-void measure_looks(CompareReport& report, const NamedPicture& reference, const NamedPicture& test,
-                   bool by_name) {
-  const renderer::FlipOptions& flip = report.flip_options;
-  for (const Metric metric : report.metrics) {
-    if (metric == Metric::ssim && (by_name || has_ssim(reference.picture)))
-      report.ssim = ssim(reference, test, {.exposure = flip.exposure, .tonemap = flip.tonemap});
-    if (metric == Metric::flip) report.flip = ldr_flip(reference, test, flip);
-    if (metric == Metric::hdr_flip) report.hdr_flip = hdr_flip(reference, test, flip);
-  }
 }
 
 }  // namespace gatelight::apps

@@ -11,9 +11,4 @@ namespace gatelight::apps {
 void measure_errors(CompareReport& report, const renderer::NamedPicture& reference,
                     const renderer::NamedPicture& test, bool others_need_all);
 
-/// Sets ssim, flip and hdr_flip where the report's metrics have them. `by_name`: the user named the metrics,
-/// so SSIM of a picture smaller than its window is refused.
-void measure_looks(CompareReport& report, const renderer::NamedPicture& reference,
-                   const renderer::NamedPicture& test, bool by_name);
-
 }  // namespace gatelight::apps

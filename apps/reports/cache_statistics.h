@@ -1,9 +1,10 @@
 #pragma once
-// Statistics of the cache as JSON and as text.
+// Statistics and the report of the cache as JSON and as text.
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
+#include "renderer/cache/cache_report.h"
 #include "renderer/settings/statistics.h"
 
 namespace gatelight::apps {
@@ -19,7 +20,9 @@ nlohmann::ordered_json cache_seconds_json(const renderer::CacheStatistics& stati
 /// A few lines, each with its line break. cache_in: the file that the cache was loaded from; empty for none.
 std::string cache_summary(const renderer::CacheStatistics& statistics, const std::string& cache_in);
 
-/// "1: 20, 4: 3": instances by resolution.
-std::string histogram_text(const renderer::CacheStatistics& statistics);
+/// The report of `gatelight info SCENE --integrator nao|nrc` on the cache. Lines, each with its line break.
+std::string cache_report_text(const renderer::CacheReport& report, const renderer::RenderOptions& options);
+nlohmann::ordered_json cache_report_json(const renderer::CacheReport& report,
+                                         const renderer::RenderOptions& options);
 
 }  // namespace gatelight::apps

@@ -10,6 +10,7 @@
 
 #include "apps/reports/json.h"
 #include "apps/terminal/text.h"
+#include "renderer/metrics/ssim.h"
 #include "renderer/settings/enum_names.h"
 
 namespace gatelight::apps {
@@ -127,6 +128,22 @@ std::string range_text(const CompareFramesReport& report, const std::vector<doub
 }
 
 }  // namespace
+
+bool measure_looks(CompareReport& report, const renderer::NamedPicture& reference,
+                   const renderer::NamedPicture& test, bool by_name,
+                   const std::function<bool(double)>& go_on) {
+  const renderer::FlipOptions& flip = report.flip_options;
+  for (const Metric metric : report.metrics) {
+    if (metric == Metric::ssim && (by_name || renderer::has_ssim(reference.picture)))
+      report.ssim = renderer::ssim(reference, test, {.exposure = flip.exposure, .tonemap = flip.tonemap});
+    if (metric == Metric::flip) report.flip = renderer::ldr_flip(reference, test, flip);
+    if (metric == Metric::hdr_flip) {
+      report.hdr_flip = renderer::hdr_flip(reference, test, flip, go_on);
+      if (!report.hdr_flip) return false;
+    }
+  }
+  return true;
+}
 
 std::string compare_json(const CompareReport& report) {
   ordered_json json = head_json(report);

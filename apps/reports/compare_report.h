@@ -1,6 +1,7 @@
 #pragma once
-// The results of `compare` as text and as JSON.
+// The measures of `compare` and of sweeps, as text and as JSON.
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -30,8 +31,16 @@ struct CompareReport {
   std::optional<double> ssim;          ///< empty: not requested, or the picture is smaller than the window
   std::optional<renderer::FlipResult> flip;  ///< present where requested, as hdr_flip is
   std::optional<renderer::FlipResult> hdr_flip;
-  std::optional<double> bias_rel_mse;  ///< of halves
+  std::optional<double> bias_rel_mse;   ///< of halves
+  std::optional<double> rel_mse_clean;  ///< in a sweep: without the noise of the reference, if it is known
 };
+
+/// Sets ssim, flip and hdr_flip where the report's metrics have them. `by_name`: the user named the metrics,
+/// so SSIM of a picture smaller than its window is refused. HDR-FLIP is slow where the reference has many
+/// stops: it calls go_on(fraction done), and where that returns false, so does the function.
+bool measure_looks(
+    CompareReport& report, const renderer::NamedPicture& reference, const renderer::NamedPicture& test,
+    bool by_name, const std::function<bool(double)>& go_on = [](double) { return true; });
 
 std::string compare_text(const CompareReport& report);
 std::string compare_json(const CompareReport& report);

@@ -52,15 +52,15 @@ void add_speed(ordered_json& json, const CacheStatistics& c, bool has_cache) {
   json["loss"] = has_cache ? json_number(c.loss) : nullptr;
 }
 
-void add_errors(ordered_json& json, const CellErrors& e) {
-  json["errors"] = {{"mse", json_number(e.metrics.mse)},
-                    {"rel_mse", json_number(e.metrics.rel_mse)},
+void add_errors(ordered_json& json, const CompareReport& e) {
+  json["errors"] = {{"mse", json_number(e.errors.mse)},
+                    {"rel_mse", json_number(e.errors.rel_mse)},
                     {"rel_mse_clean", json_number(e.rel_mse_clean)},
                     {"bias_rel_mse", json_number(e.bias_rel_mse)},
-                    {"psnr", json_number(e.metrics.psnr)},
+                    {"psnr", json_number(e.errors.psnr)},
                     {"ssim", json_number(e.ssim)},
                     {"flip", e.flip ? json_number(e.flip->summary.mean) : nullptr},
-                    {"hdr_flip", json_number(e.hdr_flip)}};
+                    {"hdr_flip", e.hdr_flip ? json_number(e.hdr_flip->summary.mean) : nullptr}};
   if (!e.flip) {
     json["flip_percentiles"] = nullptr;
     return;
@@ -192,7 +192,7 @@ ordered_json failed_record(const CellPlace& place, const std::string& error) {
 }
 
 ordered_json done_record(const CellPlace& place, const renderer::RenderStatistics& statistics,
-                         const CellErrors& errors, bool pictures, float ao_distance) {
+                         const CompareReport& errors, bool pictures, float ao_distance) {
   const bool has_cache = place.series.has_cache();
   ordered_json json = planned_record(place);
   json["status"] = "done";

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "apps/sweep/measure.h"
+#include "apps/reports/compare_report.h"
 #include "apps/sweep/planned.h"
 #include "renderer/settings/statistics.h"
 
@@ -30,7 +30,7 @@ nlohmann::ordered_json planned_record(const CellPlace& place);
 nlohmann::ordered_json failed_record(const CellPlace& place, const std::string& error);
 /// pictures: whether they are written. ao_distance: resolved, in metres.
 nlohmann::ordered_json done_record(const CellPlace& place, const renderer::RenderStatistics& statistics,
-                                   const CellErrors& errors, bool pictures, float ao_distance);
+                                   const CompareReport& errors, bool pictures, float ao_distance);
 
 /// Whether the record has results. False for null and for other JSON.
 bool is_done(const nlohmann::ordered_json& record);

@@ -8,7 +8,6 @@
 
 #include "apps/job/finished_picture.h"
 #include "apps/reports/recipe.h"
-#include "apps/sweep/eta.h"
 #include "apps/sweep/gate_memory.h"
 #include "apps/sweep/identity.h"
 #include "apps/sweep/planned.h"
@@ -43,6 +42,12 @@ std::string why_failed(const Work& work) {
 }
 
 }  // namespace
+
+std::vector<int> SceneSweep::points_in(const Run& run) {
+  std::vector<int> points;
+  for (const Cell* cell : run) points.push_back(cell->place.point);
+  return points;
+}
 
 SceneSweep::SceneSweep(const PlannedScene& planned, const SweepPlan& plan, const SweepSettings& settings,
                        SweepProgress& progress)
@@ -82,7 +87,6 @@ void SceneSweep::load() {
 
 void SceneSweep::fail_all(const std::string& error) {
   close();
-  reference_keys_.clear();
   references_.clear();
   cells_.clear();
   for (std::size_t i = 0; i < series_.size(); ++i) {
@@ -91,7 +95,7 @@ void SceneSweep::fail_all(const std::string& error) {
         // Without a scene there is no fingerprint; no other cell has such a name.
         const CellPlace place{
             planned_, series_[i], seed, point, fmt::format("{}-{}-{}-{}", planned_.name, i, seed, point), ""};
-        cells_.push_back({place, failed_record(place, error)});
+        cells_.push_back({place, error, failed_record(place, error)});
       }
     }
   }
@@ -152,7 +156,6 @@ std::optional<Reference> SceneSweep::find_given() {
 void SceneSweep::name_cells() {
   const std::optional<Reference> given = find_given();
   references_.clear();
-  reference_keys_.clear();
   cells_.clear();
   for (std::size_t i = 0; i < series_.size(); ++i) {
     const PlannedSeries& series = series_[i];
@@ -161,7 +164,6 @@ void SceneSweep::name_cells() {
     const std::string machine = machine_text(series.settings.render);
     Reference reference = given ? *given : planned_reference(series);
     read_reference_numbers(reference);
-    reference_keys_.push_back(reference.key);
     references_.emplace(reference.key, KnownReference{reference, {}, {}});
     for (const std::uint32_t seed : plan_.seeds) {
       for (const int point : series.points) {
@@ -169,13 +171,10 @@ void SceneSweep::name_cells() {
         // The memory of a series that failed is unknown, so its label makes the names unique.
         const std::string deciding = deciding_text(settings, view) + named_text(series) +
                                      (series_errors_[i].empty() ? "" : series.label);
-        Cell cell{.place = {planned_, series, seed, point,
-                            identity_name(fingerprint, {deciding, reference.key, machine,
-                                                        settings_.hdr_flip ? "hdr" : ""}),
-                            reference.key},
-                  .record = nullptr};
-        if (auto record = read_done(cell.place)) cell.record = std::move(*record);
-        cells_.push_back(std::move(cell));
+        const std::string id =
+            identity_name(fingerprint, {deciding, reference.key, machine, settings_.hdr_flip ? "hdr" : ""});
+        cells_.push_back({{planned_, series, seed, point, id, reference.key}, series_errors_[i], nullptr});
+        take_done(cells_.back());
       }
     }
   }
@@ -186,45 +185,43 @@ bool SceneSweep::completes_pair(const CellPlace& place) const {
   return settings_.keep_exr && second && references_.at(place.reference_key).reference.halves.size() == 2;
 }
 
-std::optional<nlohmann::ordered_json> SceneSweep::read_done(const CellPlace& place) const {
+bool SceneSweep::take_done(Cell& cell) const {
+  const CellPlace& place = cell.place;
   auto record = read_done_record(settings_.folder, place, wants_pictures(place));
-  if (!record || !settings_.keep_exr) return record;
-  const bool whole = fs::exists(in_folder(exr_file(place.id))) &&
-                     (!completes_pair(place) ||
-                      (*record)["errors"].value("bias_rel_mse", nlohmann::ordered_json()).is_number());
-  return whole ? record : std::nullopt;
+  if (!record) return false;
+  const bool has_bias = (*record)["errors"].value("bias_rel_mse", nlohmann::ordered_json()).is_number();
+  const bool lacks_bias = completes_pair(place) && !has_bias;
+  if (settings_.keep_exr && (lacks_bias || !fs::exists(in_folder(exr_file(place.id))))) return false;
+  cell.record = std::move(*record);
+  return true;
 }
 
-std::vector<SceneSweep::Run> SceneSweep::missing_runs() const {
+std::vector<SceneSweep::Run> SceneSweep::missing_runs() {
   std::vector<Run> runs;
-  // A scene that could not be read has none.
+  // A scene that could not be read has no references, and its cells stay failed.
   if (references_.empty()) return runs;
-  std::size_t cell = 0;
-  for (std::size_t series = 0; series < series_.size(); ++series) {
-    for (std::size_t seed = 0; seed < plan_.seeds.size(); ++seed) {
-      Run run{series, seed, {}};
-      for (std::size_t point = 0; point < series_[series].points.size(); ++point, ++cell) {
-        if (!is_done(cells_[cell].record)) run.missing.push_back(cell);
-      }
-      if (!run.missing.empty()) runs.push_back(std::move(run));
-    }
+  const auto same_run = [](const CellPlace& a, const CellPlace& b) {
+    return &a.series == &b.series && a.seed == b.seed;
+  };
+  for (Cell& cell : cells_) {
+    if (is_done(cell.record)) continue;
+    if (runs.empty() || !same_run(runs.back().front()->place, cell.place)) runs.emplace_back();
+    runs.back().push_back(&cell);
   }
   // The first seed of all series comes first, so that a sweep that is stopped early has something of each.
-  std::stable_sort(runs.begin(), runs.end(), [](const Run& a, const Run& b) { return a.seed < b.seed; });
+  std::stable_sort(runs.begin(), runs.end(),
+                   [](const Run& a, const Run& b) { return a.front()->place.seed < b.front()->place.seed; });
   return runs;
 }
 
-std::vector<SweepTask> SceneSweep::tasks() const {
+std::vector<SweepTask> SceneSweep::tasks() {
   std::vector<SweepTask> tasks;
   std::set<std::string> referred;
   for (const Run& run : missing_runs()) {
-    const PlannedSeries& series = series_[run.series];
-    const Reference& reference = reference_of(run.series).reference;
-    if (!reference.is_made() && referred.insert(reference.key).second)
+    const auto& [scene, series, seed, point, id, key] = run.front()->place;
+    if (!references_.at(key).reference.is_made() && referred.insert(key).second)
       tasks.push_back(reference_task(series.settings.render, series.reference, settings_.reference_spp));
-    std::vector<int> points;
-    for (const std::size_t cell : run.missing) points.push_back(cells_[cell].place.point);
-    tasks.push_back(run_task(series, points));
+    tasks.push_back(run_task(series, points_in(run)));
   }
   return tasks;
 }
@@ -240,56 +237,44 @@ bool SceneSweep::run(const std::function<void()>& after_run) {
   return true;
 }
 
-const Picture* SceneSweep::reference_picture(std::size_t series) {
-  KnownReference& known = references_.at(reference_keys_[series]);
+const Picture* SceneSweep::reference_picture(const CellPlace& place) {
+  KnownReference& known = references_.at(place.reference_key);
   if (known.picture) return &*known.picture;
   if (!known.error.empty()) return nullptr;
   const bool made = known.reference.is_made();
   const std::string kind = renderer::name_of(kReferenceKinds, known.reference.kind);
   if (!made) progress_.begin(fmt::format("{} reference {}", planned_.name, kind), true);
-  const std::string failure = why_failed([&] {
-    known.picture = make_reference(known.reference, scene_, series_[series].settings, callbacks());
-  });
+  const std::string failure = why_failed(
+      [&] { known.picture = make_reference(known.reference, scene_, place.series.settings, callbacks()); });
   if (!failure.empty()) known.error = fmt::format("the reference could not be made: {}", failure);
   const bool stopped = !known.picture && failure.empty();
   if (!made && !stopped) progress_.end();
   return known.picture ? &*known.picture : nullptr;
 }
 
-void SceneSweep::take_done(Run& run) {
-  std::erase_if(run.missing, [&](std::size_t index) {
-    Cell& cell = cells_[index];
-    auto record = read_done(cell.place);
-    if (record) cell.record = std::move(*record);
-    return record.has_value();
-  });
-}
-
 bool SceneSweep::make(Run run) {
-  const PlannedSeries& series = series_[run.series];
-  std::string error = series_errors_[run.series];
-  const Picture* reference = error.empty() ? reference_picture(run.series) : nullptr;
+  const CellPlace& place = run.front()->place;
+  std::string error = run.front()->error;
+  const Picture* reference = error.empty() ? reference_picture(place) : nullptr;
   if (!reference && stop_signal() != 0) return false;
 
-  progress_.begin(fmt::format("{}  {}  seed {}", planned_.name, series.label, plan_.seeds[run.seed]), false);
+  progress_.begin(fmt::format("{}  {}  seed {}", planned_.name, place.series.label, place.seed), false);
   // Two series can turn out to have the same memory, and so the same cells.
-  take_done(run);
-  std::size_t next = 0;  // index into run.missing
+  std::erase_if(run, [&](Cell* cell) { return take_done(*cell); });
+  std::size_t next = 0;
   bool finished = true;
-  if (!reference && error.empty()) error = reference_of(run.series).error;
-  if (reference && !run.missing.empty())
-    error = why_failed([&] { finished = render(run, *reference, next); });
-  if (!error.empty())
-    fail({run.missing.begin() + static_cast<std::ptrdiff_t>(next), run.missing.end()}, error);
+  if (!reference && error.empty()) error = references_.at(place.reference_key).error;
+  if (reference && !run.empty()) error = why_failed([&] { finished = render(run, *reference, next); });
+  if (!error.empty()) fail({run.begin() + static_cast<std::ptrdiff_t>(next), run.end()}, error);
   if (finished) progress_.end();
   return finished;
 }
 
 bool SceneSweep::render(const Run& run, const Picture& reference, std::size_t& next) {
-  PlannedSeries& series = series_[run.series];
-  std::vector<int> points;
-  for (const std::size_t cell : run.missing) points.push_back(cells_[cell].place.point);
-  const RenderSettings settings = cell_settings(series, planned_.file, plan_.seeds[run.seed], points.back());
+  const CellPlace& place = run.front()->place;
+  PlannedSeries& series = series_[static_cast<std::size_t>(&place.series - series_.data())];
+  const std::vector<int> points = points_in(run);
+  const RenderSettings settings = cell_settings(series, planned_.file, place.seed, points.back());
   if (settings_.verbose) {
     progress_.clear();
     log_detail(fmt::format("options: {}", dump_options(settings)));
@@ -298,9 +283,7 @@ bool SceneSweep::render(const Run& run, const Picture& reference, std::size_t& n
   renderer::Renderer renderer(scene_, settings.render);
   const auto finish = [&](int point, const Picture& picture, const RenderStatistics& statistics) {
     const auto index = static_cast<std::size_t>(point);
-    Cell& cell = cells_[run.missing[index]];
-    if (finish_cell(cell, picture, statistics, reference, reference_of(run.series).reference))
-      next = index + 1;
+    if (finish_cell(*run[index], picture, statistics, reference)) next = index + 1;
   };
   if (series.named) {
     // The choice depends on the view only, so all seeds have the same one.
@@ -314,12 +297,13 @@ bool SceneSweep::render(const Run& run, const Picture& reference, std::size_t& n
     renderer.render_series(series.has_cache() ? renderer::Series{points, {}} : renderer::Series{{}, points},
                            finish, callbacks());
   }
-  return next == run.missing.size();
+  return next == run.size();
 }
 
 bool SceneSweep::finish_cell(Cell& cell, const Picture& picture, const RenderStatistics& statistics,
-                             const Picture& reference, const Reference& named) {
+                             const Picture& reference) {
   const CellPlace& place = cell.place;
+  const Reference& named = references_.at(place.reference_key).reference;
   const RenderSettings& settings = place.series.settings;
   // Occlusion lies between 0 and 1, so it needs no exposures.
   const bool hdr = settings_.hdr_flip && place.series.reference != ReferenceKind::ao;
@@ -330,16 +314,19 @@ bool SceneSweep::finish_cell(Cell& cell, const Picture& picture, const RenderSta
     progress_.phase("measure", fraction);
     return stop_signal() == 0;
   };
-  std::optional<CellErrors> measured =
-      measure_errors({reference, named.file}, named.rel_mse_noise, {picture, cell_file(place.id)},
-                     settings.image, hdr, go_on);
-  if (!measured) return false;
-  CellErrors& errors = *measured;
+  const renderer::NamedPicture true_light{reference, named.file}, test{picture, cell_file(place.id)};
+  CompareReport errors{.metrics = {Metric::ssim, Metric::flip},
+                       .errors = renderer::compare_pictures(true_light, test),
+                       .flip_options = {.exposure = settings.image.display.exposure,
+                                        .tonemap = settings.image.display.tonemap}};
+  if (hdr) errors.metrics.push_back(Metric::hdr_flip);
+  if (named.rel_mse_noise) errors.rel_mse_clean = errors.errors.rel_mse - *named.rel_mse_noise;
+  const bool finite = errors.errors.nonfinite_reference + errors.errors.nonfinite_test == 0;
+  if (finite && !measure_looks(errors, true_light, test, false, go_on)) return false;
   if (settings_.keep_exr) renderer::write_image(picture, in_folder(exr_file(place.id)), {.exr_float = true});
   const Cell* first = completes_pair(place) ? &cell - place.series.points.size() : nullptr;
   if (first && is_done(first->record)) {
-    errors.bias_rel_mse =
-        measure_bias(named, in_folder(exr_file(first->place.id)), {picture, cell_file(place.id)});
+    errors.bias_rel_mse = measure_bias(named, in_folder(exr_file(first->place.id)), test);
   }
   const bool pictures = wants_pictures(place);
   if (pictures) {
@@ -354,16 +341,15 @@ bool SceneSweep::finish_cell(Cell& cell, const Picture& picture, const RenderSta
   return true;
 }
 
-void SceneSweep::fail(const std::vector<std::size_t>& cells, const std::string& error) {
-  if (cells.empty()) return;
-  for (const std::size_t index : cells) {
-    Cell& cell = cells_[index];
-    cell.record = failed_record(cell.place, error);
-    keep(cell);
+void SceneSweep::fail(const Run& run, const std::string& error) {
+  if (run.empty()) return;
+  for (Cell* cell : run) {
+    cell->record = failed_record(cell->place, error);
+    keep(*cell);
   }
-  const CellPlace& first = cells_[cells.front()].place;
+  const CellPlace& first = run.front()->place;
   warn(fmt::format("{}, {}, seed {}: {} cell{} failed: {}", planned_.name, first.series.label, first.seed,
-                   cells.size(), cells.size() == 1 ? "" : "s", error));
+                   run.size(), run.size() == 1 ? "" : "s", error));
 }
 
 void SceneSweep::keep(Cell& cell) const {

@@ -31,7 +31,7 @@ class SceneSweep {
   /// Frees the memory of the scene. Results and tasks stay.
   void close();
   /// The tasks of missing cells; empty where all cells are done.
-  std::vector<SweepTask> tasks() const;
+  std::vector<SweepTask> tasks();
   /// Makes the missing cells and calls `after_run` after each run. Returns false where a signal ended it. An
   /// exception of a cell is recorded as its failure, except OutputError: other files could not be
   /// written either.
@@ -42,14 +42,11 @@ class SceneSweep {
  private:
   struct Cell {
     CellPlace place;
+    std::string error;              ///< why its series cannot be made; empty where it can
     nlohmann::ordered_json record;  ///< null: not made
   };
-  /// A series with one seed.
-  struct Run {
-    std::size_t series = 0;
-    std::size_t seed = 0;
-    std::vector<std::size_t> missing;  ///< cells
-  };
+  /// Cells of a series with one seed, at least one.
+  using Run = std::vector<Cell*>;
   struct KnownReference {
     Reference reference;
     std::optional<renderer::Picture> picture;
@@ -63,28 +60,25 @@ class SceneSweep {
   std::optional<Reference> find_given();
   void name_cells();
   Reference planned_reference(const PlannedSeries& series);
-  std::vector<Run> missing_runs() const;
-  const KnownReference& reference_of(std::size_t series) const {
-    return references_.at(reference_keys_[series]);
-  }
+  std::vector<Run> missing_runs();
+  static std::vector<int> points_in(const Run& run);
 
   /// Whether the cell is the second one of a pair of seeds, and its bias is measured.
   bool completes_pair(const CellPlace& place) const;
-  /// The record of a cell that has all files and errors that this sweep wants.
-  std::optional<nlohmann::ordered_json> read_done(const CellPlace& place) const;
+  /// Reads the record of a cell that is done. Returns false where there is none, or it lacks files or errors
+  /// that this sweep wants.
+  bool take_done(Cell& cell) const;
 
   /// Null where a signal ended it or it failed.
-  const renderer::Picture* reference_picture(std::size_t series);
-  /// Removes cells that another run has made meanwhile.
-  void take_done(Run& run);
+  const renderer::Picture* reference_picture(const CellPlace& place);
   bool make(Run run);
   /// Renders the cells of a run; `next` counts those that are finished. Returns false where a signal ended
   /// it.
   bool render(const Run& run, const renderer::Picture& reference, std::size_t& next);
   /// Returns false where a signal ended it.
   bool finish_cell(Cell& cell, const renderer::Picture& picture, const renderer::RenderStatistics& statistics,
-                   const renderer::Picture& reference, const Reference& named);
-  void fail(const std::vector<std::size_t>& cells, const std::string& error);
+                   const renderer::Picture& reference);
+  void fail(const Run& run, const std::string& error);
   void keep(Cell& cell) const;
   bool wants_pictures(const CellPlace& place) const { return place.seed == plan_.seeds.front(); }
   renderer::Callbacks callbacks();
@@ -99,10 +93,9 @@ class SceneSweep {
   scene::Scene scene_;
   std::map<std::string, renderer::SceneFingerprint> fingerprints_;  ///< by environment
   std::vector<PlannedSeries> series_;                               ///< with resolved memory
-  std::vector<std::string> series_errors_;  ///< why a series cannot be made; empty where it can
-  std::map<std::string, KnownReference> references_;
-  std::vector<std::string> reference_keys_;  ///< of each series
-  std::vector<Cell> cells_;                  ///< by series, seed and point
+  std::vector<std::string> series_errors_;            ///< why a series cannot be made; empty where it can
+  std::map<std::string, KnownReference> references_;  ///< by key
+  std::vector<Cell> cells_;                           ///< by series, seed and point
 };
 
 }  // namespace gatelight::apps

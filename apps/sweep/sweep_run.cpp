@@ -1,18 +1,21 @@
 #include "apps/sweep/sweep_run.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <sys/file.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <deque>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <system_error>
 
 #include "apps/settings/complete_settings.h"
 #include "apps/sweep/advise.h"
-#include "apps/sweep/eta.h"
-#include "apps/sweep/folder_lock.h"
 #include "apps/sweep/planned.h"
 #include "apps/sweep/report.h"
 #include "apps/sweep/results.h"
@@ -68,6 +71,29 @@ void check_inputs(const SweepSettings& settings, const SweepPlan& plan) {
                      "`reference-spp`"});
   }
 }
+
+/// Allows one sweep at a time in a folder, until it is destroyed or the program ends, however it ends.
+class FolderLock {
+ public:
+  /// Throws InputError where another process has the lock, OutputError where FOLDER/.lock cannot be opened.
+  /// On a file system without locks there is no protection.
+  explicit FolderLock(const std::string& folder) {
+    const std::string file = (std::filesystem::path(folder) / ".lock").string();
+    descriptor_ = ::open(file.c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0666);
+    if (descriptor_ < 0) {
+      throw OutputError(fmt::format("cannot write '{}': {}", file, std::generic_category().message(errno)));
+    }
+    if (::flock(descriptor_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
+    ::close(descriptor_);
+    throw InputError(fmt::format("'{}': another sweep is at work here, expected one at a time", folder));
+  }
+  ~FolderLock() { ::close(descriptor_); }
+  FolderLock(const FolderLock&) = delete;
+  FolderLock& operator=(const FolderLock&) = delete;
+
+ private:
+  int descriptor_ = -1;
+};
 
 class SweepRun {
  public:

@@ -5,7 +5,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "apps/reports/cache_report_text.h"
 #include "apps/reports/run_report.h"
 #include "tests/support/messages.h"
 

@@ -1,4 +1,4 @@
-#include "apps/sweep/eta.h"
+#include "apps/sweep/sweep_progress.h"
 
 #include <gtest/gtest.h>
 

@@ -126,7 +126,7 @@ TEST(SweepRecord, NamesTheMachineTheVersionAndTheChosenOptions) {
 }
 
 TEST(SweepRecord, PixelsThatAreNotFiniteHaveNoFlip) {
-  CellErrors e = errors();
+  CompareReport e = errors();
   e.flip.reset();
   const ordered_json r = done_record(cached(), statistics(), e, true, 2.5f);
   EXPECT_TRUE(r["errors"]["flip"].is_null());

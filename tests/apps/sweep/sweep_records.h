@@ -58,11 +58,11 @@ inline renderer::RenderStatistics statistics() {
   return s;
 }
 
-inline CellErrors errors() {
-  CellErrors e;
-  e.metrics.mse = 0.01;
-  e.metrics.rel_mse = 0.02;
-  e.metrics.psnr = std::numeric_limits<double>::infinity();
+inline CompareReport errors() {
+  CompareReport e;
+  e.errors.mse = 0.01;
+  e.errors.rel_mse = 0.02;
+  e.errors.psnr = std::numeric_limits<double>::infinity();
   e.rel_mse_clean = 0.015;
   e.ssim = 0.9;
   e.flip.emplace();

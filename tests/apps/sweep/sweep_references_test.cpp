@@ -10,9 +10,9 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "apps/reports/compare_report.h"
 #include "apps/sweep/gate_memory.h"
 #include "apps/sweep/identity.h"
-#include "apps/sweep/measure.h"
 #include "apps/terminal/errors.h"
 #include "renderer/cache/cache_report.h"
 #include "renderer/image/image_read.h"
@@ -258,17 +258,16 @@ TEST_F(SweepReferences, HdrFlipOfACellCanBeStopped) {
   bright.layers = {{.channels = {"R", "G", "B"}, .values = {9, 9, 9, 1, 1, 1, 1, 1, 1, 1, 1, 1}}};
   Picture other = bright;
   other.layers[0].values[0] = 1.0f;
+  CompareReport report{.metrics = {Metric::hdr_flip}};
   int calls = 0;
-  const auto measure = [&](bool hdr, int most) {
+  const auto measure = [&](int most) {
     calls = 0;
-    return measure_errors({bright, "a"}, std::nullopt, {other, "b"}, {}, hdr,
-                          [&](double) { return ++calls <= most; });
+    return measure_looks(report, {bright, "a"}, {other, "b"}, false, [&](double) { return ++calls <= most; });
   };
-  EXPECT_TRUE(measure(true, 100)->hdr_flip.has_value());
+  EXPECT_TRUE(measure(100));
   EXPECT_GT(calls, 2);
-  EXPECT_FALSE(measure(true, 1).has_value());
+  EXPECT_FALSE(measure(1));
   EXPECT_EQ(calls, 2);
-  EXPECT_FALSE(measure(false, 0)->hdr_flip.has_value());
 }
 
 TEST_F(SweepReferences, CellsOfOtherMachinesHaveOtherNames) {
