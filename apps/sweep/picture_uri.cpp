@@ -1,31 +1,28 @@
 #include "apps/sweep/picture_uri.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <string_view>
 #include <vector>
 
 #include "base/image/jpeg_write.h"
+#include "renderer/film/scale_down.h"
 #include "renderer/image/image_write.h"
 #include "renderer/image/srgb.h"
 
 namespace gatelight::apps {
 namespace {
 
-/// Means of squares of `side` pixels; what is left at the right and at the bottom is cut off.
-std::vector<std::uint8_t> shrink(const std::vector<std::uint8_t>& bytes, int width, int side, int columns,
+/// Means of squares of `side` pixels in linear light; what is left at the right and at the bottom is cut off.
+std::vector<std::uint8_t> shrink(const std::vector<std::uint8_t>& bytes, int width, int height, int side,
                                  int rows) {
+  std::vector<float> light;
+  light.reserve(bytes.size());
+  for (const std::uint8_t byte : bytes) light.push_back(renderer::kSrgbToLinear[byte]);
+  const renderer::ScaleDown squares(side, renderer::PixelFilter::box, 1.0f);
   std::vector<std::uint8_t> smaller;
-  for (int i = 0; i < columns * rows; ++i) {
-    for (int c = 0; c < 3; ++c) {
-      float sum = 0.0f;
-      for (int k = 0; k < side * side; ++k) {
-        const std::ptrdiff_t x = i % columns * side + k % side, y = i / columns * side + k / side;
-        sum += renderer::kSrgbToLinear[bytes[static_cast<std::size_t>(3 * (y * width + x) + c)]];
-      }
-      const float mean = sum / static_cast<float>(side * side);
-      smaller.push_back(renderer::display_byte(mean, 1.0f, renderer::Tonemap::none));
-    }
-  }
+  for (const float mean : squares.scale(light, 3, width, height, 0, 0, rows))
+    smaller.push_back(renderer::display_byte(mean, 1.0f, renderer::Tonemap::none));
   return smaller;
 }
 
@@ -50,7 +47,7 @@ std::string picture_uri(const renderer::Picture& picture, const renderer::Displa
   const int side = (picture.width + kMaxWidth - 1) / kMaxWidth;
   const int columns = picture.width / side, rows = std::max(1, picture.height / side);
   std::vector<std::uint8_t> bytes = renderer::display_bytes(picture, display);
-  if (side > 1) bytes = shrink(bytes, picture.width, side, columns, rows);
+  if (side > 1) bytes = shrink(bytes, picture.width, picture.height, side, rows);
   return "data:image/jpeg;base64," + encode_base64(encode_jpeg(bytes, columns, rows, kQuality));
 }
 

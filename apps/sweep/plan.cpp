@@ -241,22 +241,17 @@ class Planner {
   /// Makes axes of integrator, encoding and denoiser where they vary: integrators without a cache may be
   /// measured too, and presets decide about denoising.
   void name_integrators() {
-    std::set<std::string> integrators, encodings;
-    std::set<std::string> denoisers;
-    for (const PlannedSeries& s : series_) {
-      integrators.insert(integrator_of(s));
-      if (s.has_cache()) encodings.insert(encoding_of(s));
-      denoisers.insert(denoiser_of(s));
-    }
-    for (PlannedSeries& s : series_) {
-      drop_flag(s.axes, "integrator");
-      drop_flag(s.axes, "encoding");
-      drop_flag(s.axes, "denoiser");
-      FlagValues axes;
-      if (integrators.size() > 1) axes.emplace_back("integrator", integrator_of(s));
-      if (encodings.size() > 1 && s.has_cache()) axes.emplace_back("encoding", encoding_of(s));
-      if (denoisers.size() > 1) axes.emplace_back("denoiser", denoiser_of(s));
-      s.axes.insert(s.axes.begin(), axes.begin(), axes.end());
+    const std::pair<const char*, std::string (*)(const PlannedSeries&)> decided[] = {
+        {"denoiser", denoiser_of}, {"encoding", encoding_of}, {"integrator", integrator_of}};
+    for (const auto& [name, value_of] : decided) {
+      std::set<std::string> values;
+      for (const PlannedSeries& s : series_) values.insert(value_of(s));
+      values.erase("");
+      for (PlannedSeries& s : series_) {
+        drop_flag(s.axes, name);
+        const std::string value = value_of(s);
+        if (values.size() > 1 && !value.empty()) s.axes.emplace(s.axes.begin(), name, value);
+      }
     }
   }
 
@@ -288,8 +283,9 @@ class Planner {
     const renderer::RenderOptions& o = s.settings.render;
     return o.choose_integrator ? "auto" : renderer::enum_name(o.integrator);
   }
+  /// Empty without a cache.
   static std::string encoding_of(const PlannedSeries& s) {
-    return renderer::enum_name(s.settings.render.cache.encoding);
+    return s.has_cache() ? renderer::enum_name(s.settings.render.cache.encoding) : "";
   }
 
   const SweepRequest& request_;

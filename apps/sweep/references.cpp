@@ -173,14 +173,12 @@ ordered_json reference_json(const Reference& reference, const std::string& folde
   const fs::path absolute = fs::absolute(reference.file).lexically_normal();
   const fs::path relative = absolute.lexically_relative(fs::absolute(folder).lexically_normal());
   const bool inside = !relative.empty() && *relative.begin() != "..";
-  ordered_json json = {
-      {"id", reference.key},      {"kind", renderer::name_of(kReferenceKinds, reference.kind)},
-      {"spp", nullptr},           {"file", (inside ? relative : absolute).generic_string()},
-      {"rel_mse_noise", nullptr}, {"seconds", nullptr}};
-  if (reference.spp) json["spp"] = *reference.spp;
-  if (reference.rel_mse_noise) json["rel_mse_noise"] = *reference.rel_mse_noise;
-  if (reference.seconds) json["seconds"] = *reference.seconds;
-  return json;
+  return {{"id", reference.key},
+          {"kind", renderer::name_of(kReferenceKinds, reference.kind)},
+          {"spp", reference.spp ? ordered_json(*reference.spp) : nullptr},
+          {"file", (inside ? relative : absolute).generic_string()},
+          {"rel_mse_noise", json_number(reference.rel_mse_noise)},
+          {"seconds", json_number(reference.seconds)}};
 }
 
 RenderSettings reference_settings(const RenderSettings& cell, ReferenceKind kind, int spp) {

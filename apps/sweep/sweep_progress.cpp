@@ -132,13 +132,7 @@ void SweepProgress::end() {
   clear_line();
   const std::optional<double> left = clock_.left(0.0, 0.0);
   if (mode_ == ProgressMode::json) {
-    nlohmann::ordered_json line = {{"event", "task"},
-                                   {"task", task_},
-                                   {"tasks_done", clock_.done()},
-                                   {"tasks", clock_.count()},
-                                   {"seconds", seconds_since(task_start_)}};
-    if (left) line["eta_seconds"] = *left;
-    print_json_line(line);
+    print_json_line(event("task", seconds_since(task_start_), left));
   } else if (words_) {
     print_status(fmt::format("{}/{}  {}{} in {:.1f} s; left {}\n", clock_.done(), clock_.count(), task_,
                              cells_ > 0 ? fmt::format(": {} cell{}", cells_, cells_ == 1 ? "" : "s") : "",
@@ -163,18 +157,24 @@ void SweepProgress::done(const std::string& folder, std::size_t cells, std::size
   }
 }
 
+nlohmann::ordered_json SweepProgress::event(const char* name, double seconds,
+                                            const std::optional<double>& left) const {
+  nlohmann::ordered_json line = {{"event", name},
+                                 {"task", task_},
+                                 {"tasks_done", clock_.done()},
+                                 {"tasks", clock_.count()},
+                                 {"seconds", seconds}};
+  if (left) line["eta_seconds"] = *left;
+  return line;
+}
+
 void SweepProgress::show(const std::string& what, double fraction, bool must) {
   if (mode_ == ProgressMode::none || !due(must)) return;
   const std::optional<double> left = clock_.left(seconds_since(task_start_), one_piece_ ? fraction : 0.0);
   if (mode_ == ProgressMode::json) {
-    nlohmann::ordered_json line = {{"event", "progress"},
-                                   {"task", task_},
-                                   {"phase", what},
-                                   {"fraction", fraction},
-                                   {"tasks_done", clock_.done()},
-                                   {"tasks", clock_.count()},
-                                   {"seconds", seconds_since(start_)}};
-    if (left) line["eta_seconds"] = *left;
+    nlohmann::ordered_json line = event("progress", seconds_since(start_), left);
+    line["phase"] = what;
+    line["fraction"] = fraction;
     print_json_line(line);
     return;
   }

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <map>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -71,6 +72,8 @@ class SweepProgress : public ProgressLine {
 
  private:
   void show(const std::string& what, double fraction, bool must);
+  /// A JSON line about the task under way.
+  nlohmann::ordered_json event(const char* name, double seconds, const std::optional<double>& left) const;
 
   bool words_;  ///< a line for each task
   SweepClock clock_;

@@ -6,6 +6,7 @@
 #include "apps/sweep/flag_values.h"
 #include "apps/sweep/request.h"
 #include "apps/terminal/errors.h"
+#include "tests/apps/sweep/sweep_records.h"
 #include "tests/support/messages.h"
 #include "tests/support/temporary_folder.h"
 
@@ -53,14 +54,6 @@ TEST(SweepAxes, BadListsAreRefusedWithFlagAndValue) {
   }
 }
 
-SweepArguments words_for(FlagValues base, std::vector<std::string> vary = {}) {
-  SweepArguments words;
-  words.scenes = {"room.glb"};
-  words.base = std::move(base);
-  words.vary = std::move(vary);
-  return words;
-}
-
 ErrorParts refused(const SweepArguments& words) {
   return refusal([&] { make_request(words); });
 }
@@ -77,7 +70,7 @@ TEST(SweepRuns, AreANameAndFlagsWithValues) {
 
 TEST(SweepRuns, AreReadFromAFile) {
   const tests::TemporaryFolder folder;
-  SweepArguments words = words_for({});
+  SweepArguments words = arguments({});
   words.plans = {folder.write("a.plan", "# one a line\n\none: --spp 1\r\n  two: --spp 2\n").string()};
   words.runs = {"three: --spp 3"};
   std::vector<std::string> names;
@@ -88,7 +81,7 @@ TEST(SweepRuns, AreReadFromAFile) {
 }
 
 TEST(SweepRuns, AreRefusedWithFlagsThatAreNotTheirs) {
-  SweepArguments words = words_for({});
+  SweepArguments words = arguments({});
   const auto refused_run = [&](const std::string& run) {
     words.runs = {"one: --spp 1", run};
     return refused(words);
@@ -99,46 +92,46 @@ TEST(SweepRuns, AreRefusedWithFlagsThatAreNotTheirs) {
     expect_parts(refused_run(std::string("two: ") + flag + " 2"), {"run", flag, "'two'"});
   words.train_steps = "8";
   EXPECT_EQ(refused_run("two:").option, "train-steps");
-  SweepArguments finished = words_for({{"--integrator", "path"}});
+  SweepArguments finished = arguments({{"--integrator", "path"}});
   finished.preset = "finished";
   expect_parts(refused(finished), {"integrator", "path", "`preset`"});
 }
 
 TEST(SweepRequest, APresetOfRenderSetsIntegratorAndSamples) {
-  SweepArguments words = words_for({});
+  SweepArguments words = arguments({});
   words.preset = "final";
   EXPECT_THAT(make_request(words).blocks[0].base, ElementsAre(Pair("--preset", "final")));
-  EXPECT_THAT(make_request(words_for({}, {"preset=preview,final"})).blocks[0].base, ElementsAre());
+  EXPECT_THAT(make_request(arguments({}, {"preset=preview,final"})).blocks[0].base, ElementsAre());
 }
 
 TEST(SweepRequest, FlagsThatAreFixedAndVariedAreRefused) {
-  SweepArguments both = words_for({{"--encoding", "gate"}});
+  SweepArguments both = arguments({{"--encoding", "gate"}});
   both.axes = {{kAxisFlags[1], "gate,hashgrid"}};
   expect_parts(refused(both), {"encoding", "gate", "`encodings`"});
-  expect_parts(refused(words_for({{"--batch", "7"}}, {"batch=1,2"})), {"batch", "7", "`vary`"});
-  expect_parts(refused(words_for({}, {"batch=1,2", "batch=3"})), {"vary", "--batch", "`vary`"});
-  SweepArguments twice = words_for({}, {"features=2,4"});
+  expect_parts(refused(arguments({{"--batch", "7"}}, {"batch=1,2"})), {"batch", "7", "`vary`"});
+  expect_parts(refused(arguments({}, {"batch=1,2", "batch=3"})), {"vary", "--batch", "`vary`"});
+  SweepArguments twice = arguments({}, {"features=2,4"});
   twice.axes = {{kAxisFlags[2], "8"}};
   expect_parts(refused(twice), {"vary", "--features", "`features`"});
-  SweepArguments preset = words_for({}, {"preset=preview,final"});
+  SweepArguments preset = arguments({}, {"preset=preview,final"});
   preset.preset = "preview";
   EXPECT_EQ(refused(preset).option, "preset");
 }
 
 TEST(SweepRequest, FlagsThatCannotBeVariedAreRefusedWithAnAlternative) {
-  expect_parts(refused(words_for({}, {"seed=1,2"})), {"vary", "--seed", "", "--seeds"});
-  expect_parts(refused(words_for({}, {"spp=1,2"})), {"vary", "--spp", "", "--cache-spp"});
-  expect_parts(refused(words_for({}, {"train-steps=1,2"})),
+  expect_parts(refused(arguments({}, {"seed=1,2"})), {"vary", "--seed", "", "--seeds"});
+  expect_parts(refused(arguments({}, {"spp=1,2"})), {"vary", "--spp", "", "--cache-spp"});
+  expect_parts(refused(arguments({}, {"train-steps=1,2"})),
                {"vary", "--train-steps", "", "--train-steps LIST"});
   for (const char* flag : {"output", "cache-in", "checkpoint", "time-limit", "train-time", "aov",
                            "cryptomatte", "variant", "frob"}) {
-    expect_parts(refused(words_for({}, {std::string(flag) + "=a,b"})), {"vary", std::string("--") + flag});
+    expect_parts(refused(arguments({}, {std::string(flag) + "=a,b"})), {"vary", std::string("--") + flag});
   }
-  EXPECT_EQ(refused(words_for({}, {"max-depth=1,2", "exposure=0,1", "view=final,cache"})).option, "");
+  EXPECT_EQ(refused(arguments({}, {"max-depth=1,2", "exposure=0,1", "view=final,cache"})).option, "");
 }
 
 TEST(SweepRequest, SeedsStartAtTheGivenSeed) {
-  SweepArguments words = words_for({{"--seed", "40"}});
+  SweepArguments words = arguments({{"--seed", "40"}});
   words.seeds = "3";
   const SweepRequest request = make_request(words);
   EXPECT_EQ(request.first_seed, 40u);
@@ -154,7 +147,7 @@ TEST(SweepRequest, SeedsStartAtTheGivenSeed) {
 }
 
 TEST(SweepRequest, FlagsWinOverAPresetOfThePaper) {
-  SweepArguments words = words_for({{"--size", "64x36"}, {"--batch", "512"}}, {"hidden=16,32"});
+  SweepArguments words = arguments({{"--size", "64x36"}, {"--batch", "512"}}, {"hidden=16,32"});
   words.preset = "paper-table1";
   words.train_steps = "4,2";
   const SweepRequest request = make_request(words);
@@ -173,7 +166,7 @@ TEST(SweepRequest, FlagsWinOverAPresetOfThePaper) {
 
 TEST(SweepRequest, FlagsThatNameARowCannotBeChanged) {
   const auto refused_by = [](const std::string& preset, FlagValues base, std::vector<std::string> vary = {}) {
-    SweepArguments words = words_for(std::move(base), std::move(vary));
+    SweepArguments words = arguments(std::move(base), std::move(vary));
     words.preset = preset;
     return refused(words);
   };
@@ -183,7 +176,7 @@ TEST(SweepRequest, FlagsThatNameARowCannotBeChanged) {
   EXPECT_EQ(refused_by("paper-table1", {{"--resolution", "uniform"}}).option, "")
       << "no row is named after it";
   EXPECT_EQ(refused_by("paper-table1", {{"--normal-input", "on"}}).option, "");
-  SweepArguments axes = words_for({});
+  SweepArguments axes = arguments({});
   axes.preset = "paper-table1";
   axes.axes = {{kAxisFlags[1], "gate,hashgrid"}};
   expect_parts(refused(axes), {"encodings", "--encoding"});

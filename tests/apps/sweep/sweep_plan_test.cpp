@@ -32,14 +32,10 @@ using ::testing::UnorderedElementsAre;
 
 SweepPlan plan_of(FlagValues base, std::vector<std::string> vary = {}, bool no_plain = true,
                   const std::string& preset = "") {
-  SweepArguments words;
-  words.scenes = {"room.glb"};
-  words.base = std::move(base);
-  words.vary = std::move(vary);
+  SweepArguments words = arguments(std::move(base), std::move(vary), "8,16");
   words.no_plain = no_plain;
   words.preset = preset;
-  words.train_steps = "8,16";
-  return make_plan(make_request(words));
+  return plan_from(words);
 }
 
 TEST(SweepPlan, CombinesAllValuesOfAllAxes) {
@@ -105,18 +101,8 @@ TEST(SweepPlan, TheBareCacheHasAReferenceOfItsOwnAndNoPlainRow) {
   EXPECT_EQ(plan.scenes[0].series[2].reference, ReferenceKind::cache);
 }
 
-SweepPlan plan_of_scene_alone(FlagValues base = {}, std::vector<std::string> vary = {},
-                              const std::string& steps = "") {
-  SweepArguments words;
-  words.scenes = {"room.glb"};
-  words.base = std::move(base);
-  words.vary = std::move(vary);
-  words.train_steps = steps;
-  return make_plan(make_request(words));
-}
-
 TEST(SweepPlan, TheDefaultIsTheBareAndTheFinishedCacheBesidePathTracingOfBothKinds) {
-  const SweepPlan plan = plan_of_scene_alone({{"--size", "64x36"}});
+  const SweepPlan plan = plan_from(arguments({{"--size", "64x36"}}));
   ASSERT_THAT(labels(plan), ElementsAre("nrc bare", "path", "nrc standard spp 2", "path denoised",
                                         "nrc standard spp 7", "nrc standard spp 28"));
   EXPECT_EQ(plan.seeds.size(), 1u);
@@ -139,7 +125,7 @@ TEST(SweepPlan, TheDefaultIsTheBareAndTheFinishedCacheBesidePathTracingOfBothKin
             "gatelight render room.glb --size 64x36 --integrator path --denoiser oidn --spp 4 --seed 1 -o "
             "out.exr");
   // Given steps apply to all rows.
-  const SweepPlan short_plan = plan_of_scene_alone({}, {}, "8,16");
+  const SweepPlan short_plan = plan_from(arguments({}, {}, "8,16"));
   for (const PlannedSeries& s : short_plan.scenes[0].series) {
     if (s.has_cache()) {
       EXPECT_THAT(s.points, ElementsAre(8, 16)) << s.label;
@@ -148,17 +134,17 @@ TEST(SweepPlan, TheDefaultIsTheBareAndTheFinishedCacheBesidePathTracingOfBothKin
 }
 
 TEST(SweepPlan, FlagsThatContradictTheDefaultRowsReplaceThem) {
-  const SweepPlan gather = plan_of_scene_alone({{"--query-at", "gather"}});
+  const SweepPlan gather = plan_from(arguments({{"--query-at", "gather"}}));
   ASSERT_THAT(labels(gather), ElementsAre("nrc gate", "path"));
   EXPECT_THAT(gather.scenes[0].series[0].points, ElementsAre(8, 16, 32, 64, 128, 256, 512, 1024));
   EXPECT_EQ(gather.scenes[0].series[0].settings.render.spp, 4);
-  EXPECT_THAT(labels(plan_of_scene_alone({{"--view", "cache"}})), ElementsAre("nrc gate"));
-  EXPECT_THAT(labels(plan_of_scene_alone({{"--denoiser", "oidn"}})),
+  EXPECT_THAT(labels(plan_from(arguments({{"--view", "cache"}}))), ElementsAre("nrc gate"));
+  EXPECT_THAT(labels(plan_from(arguments({{"--denoiser", "oidn"}}))),
               ElementsAre("nrc gate denoised", "path", "path denoised"));
 }
 
 TEST(SweepPlan, DenoisedRowsHavePathTracingOfBothKindsBesideThem) {
-  EXPECT_THAT(labels(plan_of_scene_alone({}, {"denoiser=none,oidn"})),
+  EXPECT_THAT(labels(plan_from(arguments({}, {"denoiser=none,oidn"}))),
               ElementsAre("nrc gate", "path", "nrc gate denoised", "path denoised"));
   EXPECT_THAT(labels(plan_of({}, {"integrator=path", "denoiser=none,oidn"})),
               ElementsAre("path", "path denoised"));
@@ -213,10 +199,9 @@ TEST(SweepPlan, ABadValueInAnyCellIsRefusedAtOnce) {
 
 TEST(SweepPlan, AllowExternalAppliesToScenesAndIsInTheCommand) {
   for (const bool allowed : {false, true}) {
-    SweepArguments words;
-    words.scenes = {"room.glb"};
+    SweepArguments words = arguments();
     words.allow_external = allowed;
-    const SweepPlan plan = make_plan(make_request(words));
+    const SweepPlan plan = plan_from(words);
     for (const PlannedSeries& series : plan.scenes[0].series) {
       EXPECT_EQ(series.settings.load.allow_external, allowed);
       const std::string command = cell_command(series, "room.glb", 1, 8);
@@ -269,12 +254,10 @@ TEST(SweepPlan, ScenesOfOneNameGetDifferentNames) {
 }
 
 TEST(SweepPlan, ASceneMayHaveFlagsOfItsOwn) {
-  SweepArguments words;
+  SweepArguments words = arguments({{"--camera", "front"}}, {"features=2,4"});
   words.scenes = {"room.glb", "a/hall.glb"};
-  words.vary = {"features=2,4"};
-  words.base = {{"--camera", "front"}};
   words.scene_flags = {"hall:camera=gate=1", "a/hall.glb:environment=1,1,1"};
-  const SweepPlan plan = make_plan(make_request(words));
+  const SweepPlan plan = plan_from(words);
   EXPECT_EQ(plan.scenes[0].series[0].settings.render.camera.name, "front");
   EXPECT_TRUE(plan.scenes[0].series[0].settings.render.environment.automatic);
   for (const PlannedSeries& series : plan.scenes[1].series) {

@@ -71,11 +71,10 @@ TEST(SweepRecord, TimeOfTheDenoiserCountsAndTheEstimatedErrorIsKept) {
 }
 
 TEST(SweepRecord, OfANamedRunKeepsWhatTheRunHasChosen) {
-  SweepArguments words;
-  words.scenes = {"room.glb"};
+  SweepArguments words = arguments();
   words.runs = {"finished: --preset standard"};
   words.no_plain = true;
-  SweepPlan plan = make_plan(make_request(words));
+  SweepPlan plan = plan_from(words);
   PlannedSeries& series = plan.scenes[0].series[0];
   const CellPlace place{plan.scenes[0], series, 1, 0, "0123", "ref"};
   EXPECT_TRUE(planned_record(place)["train_steps"].is_null());

@@ -10,13 +10,26 @@
 
 namespace gatelight::apps {
 
+/// Of a sweep of one scene.
+inline SweepArguments arguments(FlagValues base = {}, std::vector<std::string> vary = {},
+                                const std::string& train_steps = "") {
+  SweepArguments words;
+  words.scenes = {"room.glb"};
+  words.base = std::move(base);
+  words.vary = std::move(vary);
+  words.train_steps = train_steps;
+  return words;
+}
+
+inline SweepPlan plan_from(const SweepArguments& words) {
+  return make_plan(make_request(words));
+}
+
 inline const SweepPlan& small_plan() {
   static const SweepPlan plan = [] {
-    SweepArguments words;
+    SweepArguments words = arguments({}, {"stack=adaptive,1;adaptive"}, "4,8");
     words.scenes = {"a, \"b\".glb"};
-    words.vary = {"stack=adaptive,1;adaptive"};
-    words.train_steps = "4,8";
-    return make_plan(make_request(words));
+    return plan_from(words);
   }();
   return plan;
 }

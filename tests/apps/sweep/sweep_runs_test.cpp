@@ -18,12 +18,10 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 
 SweepPlan plan_of_runs(std::vector<std::string> runs, FlagValues base = {}) {
-  SweepArguments words;
-  words.scenes = {"room.glb"};
-  words.base = std::move(base);
+  SweepArguments words = arguments(std::move(base));
   words.runs = std::move(runs);
   words.spp = "2,4";
-  return make_plan(make_request(words));
+  return plan_from(words);
 }
 
 TEST(SweepPlanOfRuns, ANamedRunIsWhatRenderMakesOfItsFlags) {
@@ -74,24 +72,20 @@ TEST(SweepPlanOfRuns, RunsThatDifferInTheChoiceOfTheIntegratorAreNotMerged) {
 }
 
 TEST(SweepPlanOfRuns, NamedRunsMayBeCombinedWithAxesAndStandBesideAPreset) {
-  SweepArguments words;
-  words.scenes = {"room.glb"};
+  SweepArguments words = arguments();
   words.no_plain = true;
   words.runs = {"bare: --preset bare", "wide: --preset bare --hidden 64"};
   words.vary = {"hidden=16,32"};
-  EXPECT_THAT(labels(make_plan(make_request(words))),
-              ElementsAre("bare hidden 16", "bare hidden 32", "wide hidden 64"));
+  EXPECT_THAT(labels(plan_from(words)), ElementsAre("bare hidden 16", "bare hidden 32", "wide hidden 64"));
   words.vary.clear();
   words.preset = "finished";
-  EXPECT_THAT(labels(make_plan(make_request(words))),
-              ElementsAre("preview", "standard", "final", "bare", "wide"));
+  EXPECT_THAT(labels(plan_from(words)), ElementsAre("preview", "standard", "final", "bare", "wide"));
 }
 
 TEST(SweepPresets, FinishedPicturesAreNamedRunsBesidePathsOfBothKinds) {
-  SweepArguments words;
-  words.scenes = {"room.glb"};
+  SweepArguments words = arguments();
   words.preset = "finished";
-  const SweepPlan plan = make_plan(make_request(words));
+  const SweepPlan plan = plan_from(words);
   EXPECT_THAT(labels(plan), ElementsAre("path", "path denoised", "preview", "standard", "final"));
   EXPECT_THAT(plan.scenes[0].series[1].points, ElementsAre(4, 8, 32, 128));
   EXPECT_EQ(plan.seeds.size(), 2u);
