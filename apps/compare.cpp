@@ -7,7 +7,6 @@
 #include <memory>
 
 #include "apps/compare_frames.h"
-#include "apps/measure_pair.h"
 #include "apps/reports/compare_report.h"
 #include "apps/seeds.h"
 #include "apps/settings/compare_settings.h"
@@ -134,13 +133,12 @@ void compare_pair(const CompareSettings& settings, const std::vector<Metric>& me
   report.width = reference_picture.width;
   report.height = reference_picture.height;
   const bool map_needs_all = !settings.error_map.empty() && settings.map != Map::relative;
-  measure_errors(report, reference, test, map_needs_all);
+  measure_pair(report, reference, test, map_needs_all, !settings.metrics.empty());
   if (!settings.halves.empty()) {
     report.bias_rel_mse = renderer::squared_bias(
         {{references.front(), report.references.front()}, {references.back(), report.references.back()}},
         {{tests.front(), report.tests.front()}, {tests.back(), report.tests.back()}});
   }
-  measure_looks(report, reference, test, !settings.metrics.empty());
   if (!settings.error_map.empty()) {
     renderer::write_image(make_map(settings, report, reference, test), settings.error_map);
   }

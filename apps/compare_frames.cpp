@@ -4,7 +4,6 @@
 #include <optional>
 #include <utility>
 
-#include "apps/measure_pair.h"
 #include "apps/reports/compare_report.h"
 #include "apps/settings/picture_output.h"
 #include "apps/terminal/errors.h"
@@ -59,8 +58,7 @@ void compare_frames(const CompareSettings& settings, const std::vector<Metric>& 
     }
     require_comparable({first, first_name}, reference);
     CompareReport pair{.metrics = metrics, .flip_options = settings.flip};
-    measure_errors(pair, reference, test, false);
-    measure_looks(pair, reference, test, !settings.metrics.empty());
+    measure_pair(pair, reference, test, false, !settings.metrics.empty());
     if (has(metrics, Metric::temporal)) meter.add(reference, test);
     for (std::optional<renderer::FlipResult>* flip : {&pair.flip, &pair.hdr_flip}) {
       if (*flip) (*flip)->errors = {};

@@ -9,6 +9,8 @@
 #include <numeric>
 
 #include "apps/reports/json.h"
+#include "apps/terminal/errors.h"
+#include "apps/terminal/log.h"
 #include "apps/terminal/text.h"
 #include "renderer/metrics/ssim.h"
 #include "renderer/settings/enum_names.h"
@@ -58,6 +60,10 @@ const renderer::FlipResult* flip_of(const CompareReport& report, Metric metric) 
   return metric == Metric::hdr_flip && report.hdr_flip ? &*report.hdr_flip : nullptr;
 }
 
+bool is_look(Metric metric) {
+  return metric == Metric::ssim || metric == Metric::flip || metric == Metric::hdr_flip;
+}
+
 /// A mean with the options by which the metric sees the pictures.
 ordered_json look_json(const CompareReport& report, Metric metric, double mean) {
   if (std::isnan(mean)) return nullptr;
@@ -83,9 +89,7 @@ ordered_json look_json(const CompareReport& report, Metric metric, double mean) 
 }
 
 void add_value(ordered_json& json, const CompareReport& report, const ErrorValue& value, double number) {
-  const bool is_look =
-      value.metric == Metric::ssim || value.metric == Metric::flip || value.metric == Metric::hdr_flip;
-  json[value.key] = is_look ? look_json(report, value.metric, number) : json_number(number);
+  json[value.key] = is_look(value.metric) ? look_json(report, value.metric, number) : json_number(number);
   if (value.metric == Metric::psnr) json["psnr_peak"] = renderer::kPsnrPeak;
 }
 
@@ -127,7 +131,32 @@ std::string range_text(const CompareFramesReport& report, const std::vector<doub
   return fmt::format(", from {:.6g} (frame {}) to {:.6g} (frame {})", *low, frame(low), *high, frame(high));
 }
 
+void measure_errors(CompareReport& report, const renderer::NamedPicture& reference,
+                    const renderer::NamedPicture& test, bool others_need_all) {
+  report.errors = renderer::compare_pictures(reference, test);
+  const renderer::ErrorMetrics& errors = report.errors;
+  if (errors.nonfinite_reference + errors.nonfinite_test == 0) return;
+  const std::string counts =
+      fmt::format("pixels that are not finite: {} in '{}', {} in '{}'", errors.nonfinite_reference,
+                  reference.name, errors.nonfinite_test, test.name);
+  const auto needs_all = [](Metric metric) { return is_look(metric) || metric == Metric::temporal; };
+  if (others_need_all || std::any_of(report.metrics.begin(), report.metrics.end(), needs_all)) {
+    throw InputError(fmt::format(
+        "{}; expected none for ssim, flip, hdr_flip and temporal (--metric mse,rel_mse,psnr,mean,max "
+        "ignores them)",
+        counts));
+  }
+  if (errors.pixels == 0) throw InputError(fmt::format("{}; nothing is left to compare", counts));
+  log_warning(fmt::format("{}; they are ignored", counts));
+}
+
 }  // namespace
+
+void measure_pair(CompareReport& report, const renderer::NamedPicture& reference,
+                  const renderer::NamedPicture& test, bool others_need_all, bool by_name) {
+  measure_errors(report, reference, test, others_need_all);
+  measure_looks(report, reference, test, by_name);
+}
 
 bool measure_looks(CompareReport& report, const renderer::NamedPicture& reference,
                    const renderer::NamedPicture& test, bool by_name,

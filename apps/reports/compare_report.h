@@ -35,6 +35,11 @@ struct CompareReport {
   std::optional<double> rel_mse_clean;  ///< in a sweep: without the noise of the reference, if it is known
 };
 
+/// Measures for `compare`. Pixels that are not finite are left out with a warning. Where a metric of the
+/// report needs all pixels, or another use does (`others_need_all`), they are refused with InputError.
+void measure_pair(CompareReport& report, const renderer::NamedPicture& reference,
+                  const renderer::NamedPicture& test, bool others_need_all, bool by_name);
+
 /// Sets ssim, flip and hdr_flip where the report's metrics have them. `by_name`: the user named the metrics,
 /// so SSIM of a picture smaller than its window is refused. HDR-FLIP is slow where the reference has many
 /// stops: it calls go_on(fraction done), and where that returns false, so does the function.

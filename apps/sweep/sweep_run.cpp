@@ -108,7 +108,7 @@ class SweepRun {
   int run() {
     prepare_folders();
     const FolderLock lock(settings_.folder);
-    // The results of an earlier call are more complete than none, and stay.
+    // The results of an earlier call are more complete, and stay.
     if (!survey()) return stopped("before the first cell");
     print_versions();
     bool finished = true;
