@@ -82,8 +82,7 @@ TEST_F(SweepCells, MeasuresEveryCellAgainstItsReference) {
 }
 
 TEST_F(SweepCells, ACellIsThePictureThatItsCommandMakes) {
-  ASSERT_EQ(run_gatelight_inside(words("out", {"--features", "2,4"})).exit_code, 0);
-  const json all = results("out");
+  const json all = swept("out", {"--features", "2,4"});
   for (const json& cell : all["cells"]) {
     ASSERT_NO_FATAL_FAILURE(expect_picture_of_its_command(cell));
   }
@@ -128,8 +127,7 @@ TEST_F(SweepCells, AGivenReferenceIsCompared) {
                                   "--seed", "77", "--quiet"})
                 .exit_code,
             0);
-  ASSERT_EQ(run_gatelight_inside(words("out", {"--reference", path("r.exr"), "--no-plain"})).exit_code, 0);
-  const json all = results("out");
+  const json all = swept("out", {"--reference", path("r.exr"), "--no-plain"});
   EXPECT_EQ(all["cells"].size(), 2u);
   EXPECT_TRUE(all["cells"][0]["errors"]["rel_mse_clean"].is_null());
   EXPECT_EQ(all["scenes"][0]["references"][0]["file"], path("r.exr"));
@@ -219,22 +217,18 @@ TEST_F(SweepCells, NamedRunsAreMeasuredWithTheirBias) {
 
 TEST_F(SweepCells, SweepsMayShareAFolderOfReferences) {
   const Words shared = {"--reference-dir", path("shared"), "--no-plain"};
-  ASSERT_EQ(run_gatelight_inside(words("a", shared)).exit_code, 0);
+  swept("a", shared);
   ASSERT_EQ(count(folder / "shared"), 4u);
   const std::string file = results("a")["scenes"][0]["references"][0]["file"];
   EXPECT_EQ(fs::path(file).parent_path(), folder / "shared");
   const auto time = fs::last_write_time(file);
-  ASSERT_EQ(run_gatelight_inside(words("b", shared)).exit_code, 0);
+  swept("b", shared);
   EXPECT_EQ(fs::last_write_time(file), time);
   EXPECT_EQ(without_seconds(results("a")), without_seconds(results("b")));
 }
 
 TEST_F(SweepCells, TheBareCacheIsComparedWithWhatItShouldAnswer) {
-  ASSERT_EQ(
-      run_gatelight_inside(words("out", {"--preset", "paper-nrc", "--train-steps", "8", "--batch", "1024"}))
-          .exit_code,
-      0);
-  const json all = results("out");
+  const json all = swept("out", {"--preset", "paper-nrc", "--train-steps", "8", "--batch", "1024"});
   ASSERT_EQ(all["cells"].size(), 1u);
   EXPECT_EQ(all["cells"][0]["reference"], "cache");
   EXPECT_EQ(all["scenes"][0]["references"][0]["kind"], "cache");

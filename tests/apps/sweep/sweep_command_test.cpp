@@ -46,7 +46,7 @@ TEST_F(SweepCommand, AFolderThatCannotBeWrittenIsCode3) {
 }
 
 TEST_F(SweepCommand, AdviceNeedsNeitherSceneNorTime) {
-  ASSERT_EQ(run_gatelight_inside(words("out", {})).exit_code, 0);
+  swept("out", {});
   const Output one = run_gatelight_inside({"sweep", "-o", path("out"), "--advise", "--max-error", "1"});
   EXPECT_EQ(one.exit_code, 0) << one.err;
   EXPECT_THAT(one.out, AllOf(HasSubstr("cornell-box (path): "), HasSubstr("\n  gatelight render "),

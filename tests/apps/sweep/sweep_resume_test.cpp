@@ -18,24 +18,23 @@ using ::testing::Not;
 class SweepResume : public SweepTest {};
 
 TEST_F(SweepResume, ASecondCallRepeatsNothing) {
-  ASSERT_EQ(run_gatelight_inside(words("out", {})).exit_code, 0);
-  const json first = results("out");
+  const json first = swept("out", {});
   const auto times = [&] {
     return times_of({folder / "out/cells", folder / "out/pictures", folder / "out/references"});
   };
   const auto before = times();
-  ASSERT_EQ(run_gatelight_inside(words("out", {})).exit_code, 0);
+  swept("out", {});
   EXPECT_EQ(times(), before);
   EXPECT_EQ(results("out"), first);
   // A larger sweep adds only the missing cells.
-  ASSERT_EQ(run_gatelight_inside(words("out", {"--hidden", "16,32"})).exit_code, 0);
+  swept("out", {"--hidden", "16,32"});
   EXPECT_GT(times().size(), before.size());
   for (const auto& [file, time] : before) EXPECT_EQ(times().at(file), time) << file;
   // A cell whose picture is damaged is made again.
   const std::string picture = path("out/" + first["cells"][0]["picture"].get<std::string>());
   const std::string whole = read_file(picture);
   std::ofstream(picture, std::ios::binary) << whole.substr(0, whole.size() - 1);
-  ASSERT_EQ(run_gatelight_inside(words("out", {})).exit_code, 0);
+  swept("out", {});
   EXPECT_EQ(read_file(picture), whole);
   // A record that is not a file cannot be replaced.
   const std::string record = path("out/cells/" + first["cells"][0]["id"].get<std::string>() + ".json");
@@ -48,13 +47,11 @@ TEST_F(SweepResume, ASecondCallRepeatsNothing) {
 TEST_F(SweepResume, AnotherSceneOfTheSameNameIsNotMixedUp) {
   const std::string scene = path("room.gltf");
   folder.write("room.gltf", tiny_scene());
-  ASSERT_EQ(run_gatelight_inside(words("out", {"--environment", "1,1,1"}, scene)).exit_code, 0);
-  const json first = results("out");
+  const json first = swept("out", {"--environment", "1,1,1"}, scene);
   std::string changed = tiny_scene();
   changed.replace(changed.find("[0.5, 0.5, 0.5, 1]"), 18, "[0.1, 0.1, 0.1, 1]");
   folder.write("room.gltf", changed);
-  ASSERT_EQ(run_gatelight_inside(words("out", {"--environment", "1,1,1"}, scene)).exit_code, 0);
-  const json second = results("out");
+  const json second = swept("out", {"--environment", "1,1,1"}, scene);
   ASSERT_EQ(second["cells"].size(), first["cells"].size());
   for (std::size_t i = 0; i < first["cells"].size(); ++i) {
     EXPECT_NE(second["cells"][i]["id"], first["cells"][i]["id"]);
@@ -99,7 +96,7 @@ TEST_F(SweepResume, ASceneThatCannotBeReadDoesNotEndTheRest) {
 
 TEST_F(SweepResume, AnInterruptedAndResumedSweepHasTheSameResults) {
   const Words flags = {"--seeds", "3", "--hidden", "16,32", "--reference-spp", "256"};
-  ASSERT_EQ(run_gatelight_inside(words("straight", flags)).exit_code, 0);
+  swept("straight", flags);
   const struct {
     const char* moment;
     int signal;
@@ -126,7 +123,7 @@ TEST_F(SweepResume, AnInterruptedAndResumedSweepHasTheSameResults) {
   }
   EXPECT_GE(interruptions, 1);
   EXPECT_FALSE(kept.empty());
-  ASSERT_EQ(run_gatelight_inside(words("stopped", flags)).exit_code, 0);
+  swept("stopped", flags);
   EXPECT_EQ(without_seconds(results("stopped")), without_seconds(results("straight")));
   const auto finished = times_of({folder / "stopped/cells"});
   EXPECT_EQ(finished.size(), 18u);
@@ -192,8 +189,7 @@ TEST_F(SweepResume, OnlyOneSweepAtATimeUsesAFolder) {
 }
 
 TEST_F(SweepResume, CellsOfAnotherVersionAreKeptAndReported) {
-  ASSERT_EQ(run_gatelight_inside(words("out", {})).exit_code, 0);
-  const json first = results("out");
+  const json first = swept("out", {});
   for (std::size_t i = 0; i < 2; ++i) {
     const std::string file = "out/cells/" + first["cells"][i]["id"].get<std::string>() + ".json";
     json cell = json::parse(read_file(folder / file));
@@ -212,8 +208,7 @@ TEST_F(SweepResume, CellsOfAnotherVersionAreKeptAndReported) {
 }
 
 TEST_F(SweepResume, OtherKernelsAreMeasuredAgain) {
-  ASSERT_EQ(run_gatelight_inside(words("out", {})).exit_code, 0);
-  const json first = results("out");
+  const json first = swept("out", {});
   ASSERT_EQ(::setenv("GATELIGHT_ISA", "scalar", 1), 0);
   const int code = run_gatelight_inside(words("out", {})).exit_code;
   ::unsetenv("GATELIGHT_ISA");

@@ -52,6 +52,11 @@ class SweepTest : public ::testing::Test {
   json results(const std::string& out) const {
     return json::parse(read_file(folder / (out + "/results.json")));
   }
+  /// The results of a sweep that is done.
+  json swept(const std::string& out, const Words& more = {}, const std::string& scene = cornell()) const {
+    expect_done(run_gatelight_inside(words(out, more, scene)));
+    return results(out);
+  }
   /// A cell of the sweep in "out" is the picture that its command makes.
   void expect_picture_of_its_command(const json& cell) const {
     std::istringstream line(cell["command"].get<std::string>());
