@@ -139,14 +139,6 @@ bool is_whole(const ordered_json& record) {
          seconds.contains("total") && seconds["total"].is_number() && seconds["total"] >= 0.0;
 }
 
-/// Whether its file names are those that this program gives, so that no other files are shown.
-bool names_its_files(const ordered_json& record, const std::string& id) {
-  const auto names = [&](const char* key, const std::string& file) {
-    return record[key].is_null() || record[key] == file;
-  };
-  return names("picture", picture_file(id)) && names("error_map", error_map_file(id));
-}
-
 /// Whether the file is complete; after a power failure it may not be.
 bool is_whole_png(const std::filesystem::path& path) {
   try {
@@ -237,15 +229,14 @@ std::optional<ordered_json> read_done_record(const std::string& folder, const Ce
                                              bool with_pictures) {
   const std::filesystem::path root = folder;
   ordered_json record = read_json_file(root / cell_file(place.id));
-  if (!is_done(record) || record["id"] != place.id || record["schema"] != kSweepSchema || !is_whole(record) ||
-      !names_its_files(record, place.id)) {
+  if (!is_done(record) || record["id"] != place.id || record["schema"] != kSweepSchema || !is_whole(record))
     return std::nullopt;
-  }
-  // The files may have been deleted since.
-  for (const char* key : {"picture", "error_map"}) {
-    const ordered_json& name = record[key];
-    if (name.is_string() && is_whole_png(root / name.get<std::string>())) continue;
-    if (with_pictures && std::string(key) == "picture") return std::nullopt;
+  // The files may have been deleted since. No files of other names are shown.
+  const std::pair<const char*, std::string> files[] = {{"picture", picture_file(place.id)},
+                                                       {"error_map", error_map_file(place.id)}};
+  for (const auto& [key, file] : files) {
+    if (record[key] == file && is_whole_png(root / file)) continue;
+    if (with_pictures && key == files[0].first) return std::nullopt;
     record[key] = nullptr;
   }
   ordered_json planned = planned_record(place);

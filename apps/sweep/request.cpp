@@ -6,7 +6,6 @@
 #include <filesystem>
 #include <limits>
 #include <map>
-#include <set>
 
 #include "apps/settings/option_table.h"
 #include "apps/sweep/flag_values.h"
@@ -214,24 +213,21 @@ std::vector<std::string> find_base_flags() {
 /// Names scenes by their files, with the folder where two files have the same name. Throws BadOption for a
 /// file that is named twice.
 std::vector<SweepScene> name_scenes(const std::vector<std::string>& files) {
-  std::map<std::string, int> stems;
-  std::set<std::filesystem::path> seen;
+  std::vector<std::filesystem::path> paths;
   for (const std::string& file : files) {
-    const std::filesystem::path path = std::filesystem::absolute(file).lexically_normal();
-    if (!seen.insert(path).second) {
+    paths.push_back(std::filesystem::absolute(file).lexically_normal());
+    if (std::count(paths.begin(), paths.end(), paths.back()) > 1)
       throw BadOption({"SCENE", file, "is named twice", "different scenes"});
-    }
-    ++stems[path.stem().string()];
   }
   std::vector<SweepScene> scenes;
   std::map<std::string, int> names;
-  for (const std::string& file : files) {
-    const std::filesystem::path path = std::filesystem::absolute(file).lexically_normal();
-    std::string name = path.stem().string();
-    if (stems[name] > 1) name = fmt::format("{}-{}", path.parent_path().filename().string(), name);
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    std::string name = paths[i].stem().string();
+    if (std::count_if(paths.begin(), paths.end(), [&](const auto& p) { return p.stem() == name; }) > 1)
+      name = fmt::format("{}-{}", paths[i].parent_path().filename().string(), name);
     const int count = ++names[name];
     if (count > 1) name += fmt::format("-{}", count);
-    scenes.push_back({std::move(name), file, {}});
+    scenes.push_back({std::move(name), files[i], {}});
   }
   return scenes;
 }

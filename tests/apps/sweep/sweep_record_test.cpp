@@ -189,12 +189,16 @@ TEST(SweepRecord, AnotherShapeOrSchemaIsIgnored) {
   // Edited by hand.
   for (const char* text : {R"({"errors": {"flip": "zz"}})", R"({"errors": {"mse": [1]}})",
                            R"({"seconds": {"total": -5}})", R"({"seconds": {"render": "fast"}})",
-                           R"({"loss": {}})", R"({"memory_bytes": 1})", R"({"estimated_error": "small"})",
-                           R"({"picture": "../../secret.png"})", R"({"error_map": "cells/0123.json"})"}) {
+                           R"({"loss": {}})", R"({"memory_bytes": 1})", R"({"estimated_error": "small"})"}) {
     ordered_json edited = whole;
     edited.merge_patch(ordered_json::parse(text));
     EXPECT_FALSE(reads(edited)) << text;
   }
+  ordered_json elsewhere = whole;
+  elsewhere["picture"] = elsewhere["error_map"] = "cells/0123.json";
+  EXPECT_TRUE(reads(elsewhere));
+  const ordered_json shown = *read_done_record(folder.path().string(), place, false);
+  EXPECT_TRUE(shown["picture"].is_null() && shown["error_map"].is_null());
   ordered_json negative = whole;
   negative["errors"]["psnr"] = -3.0;
   EXPECT_TRUE(reads(negative)) << "a very bad picture";
