@@ -13,17 +13,10 @@ namespace gatelight::apps {
 namespace {
 
 std::string describe(const renderer::Progress& p) {
-  switch (p.phase) {
-    case renderer::Phase::scout:
-      return "scout";
-    case renderer::Phase::train:
-      return fmt::format("train {}/{} steps", p.steps_done, p.steps);
-    case renderer::Phase::render:
-      return fmt::format("render {}/{} spp", p.spp_done, p.spp);
-    case renderer::Phase::denoise:
-      return "denoise";
-  }
-  return "";
+  std::string text = word_of(p.phase);
+  if (p.phase == renderer::Phase::train) text += fmt::format(" {}/{} steps", p.steps_done, p.steps);
+  if (p.phase == renderer::Phase::render) text += fmt::format(" {}/{} spp", p.spp_done, p.spp);
+  return text;
 }
 
 std::string eta_text(const std::optional<double>& left) {
