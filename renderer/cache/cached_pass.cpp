@@ -138,7 +138,7 @@ void CachedPass::finish(Tile& tile, Film& film, CachedWorker& worker) const {
   context_.options.integrator == Integrator::nao ? finish_occlusion(tile) : finish_paths(tile);
   if (!tile.first_hits.empty()) describe_answers(tile, worker);
   add_to_film(tile.taken, context_.options, tile.results, tile.first_hits, film, worker.counts,
-              tile.paths.passes.parts());
+              tile.paths.parts.values());
 }
 
 void CachedPass::trace_paths(Tile& tile, CachedWorker& worker) const {

@@ -72,14 +72,14 @@ void CachedPaths::add_emission(const Path& path, const Emission& found, bool bac
   if (path.vertex == kNone) {
     const Color light = path.weights.emission * emission;
     batch.emission[path.index] += light;
-    if (batch.passes.any()) batch.passes.add_found(path.index, path.depth, background, light);
+    if (batch.parts.any_passes()) batch.parts.add_found(path.index, path.depth, background, light);
     return;
   }
   PathVertex& from = batch.vertices[static_cast<std::size_t>(path.vertex)];
   from.direct += path.weights.emission * emission;
-  if (batch.passes.any() && from.previous == kNone)
-    batch.passes.add_found(path.index, path.through_medium ? 2 : path.depth, background,
-                           from.link * path.weights.emission * emission);
+  if (batch.parts.any_passes() && from.previous == kNone)
+    batch.parts.add_found(path.index, path.through_medium ? 2 : path.depth, background,
+                          from.link * path.weights.emission * emission);
   if (from.record != kNone && (options_.cached.emission() || path.through_medium))
     batch.target(from.record) += path.weights.cached * emission;
 }
@@ -319,22 +319,21 @@ void CachedPaths::follow_direct(Path& path, const PathBlock& block, int lane, bo
     scattered = (sampled.weight - lane_color(block.points.wide_weight, lane)).max(0.0f);
   }
   path.emission_only = !(scattered > 0.0f).any();
-  RenderPasses::FirstScattering lobes;
-  if (batch.passes.any())
+  LightParts::FirstScattering lobes;
+  if (batch.parts.any_passes())
     lobes = {share_of_direction(scratch.diffuse.points, lane), {Color::Zero(), rest_of(sampled.transmitted)}};
   follow(path, block, lane, sampled, {sampled.weight, scattered}, vertex, lobes, batch, scratch);
 }
 
 void CachedPaths::follow(Path& path, const PathBlock& block, int lane, const DirectionSample& sampled,
                          const VertexWeights& weights, std::int32_t vertex,
-                         const RenderPasses::FirstScattering& lobes, PathBatch& batch,
-                         Scratch& scratch) const {
+                         const LightParts::FirstScattering& lobes, PathBatch& batch, Scratch& scratch) const {
   if (sampled.through_pane) {
     // Light from behind the pane belongs to the vertex before the pane, whose light samples pass it too.
     path.weights *= weights.emission;
   } else {
-    if (batch.passes.any() && path.vertex == kNone) {
-      RenderPasses::FirstScattering& first = batch.passes.first_scattering(path.index);
+    if (batch.parts.any_passes() && path.vertex == kNone) {
+      LightParts::FirstScattering& first = batch.parts.first_scattering(path.index);
       if (!first.in_medium) first = lobes;
     }
     path.vertex = vertex;
@@ -351,7 +350,7 @@ void CachedPaths::trace(std::span<const PathStart> starts, std::span<const Hit> 
                         PathBatch& batch, std::span<FirstHit> first_hits, RayCounts& counts,
                         Scratch& scratch) const {
   batch.begin(starts.size());
-  if (plan.passes) batch.passes.begin(options_.passes, 0, starts.size());
+  if (plan.passes) batch.parts.begin(options_.passes, 0, starts.size());
   if (plan.guides) batch.guides.resize(starts.size());
   if (plan.samples_at != QueryAt::none) batch.ends.resize(starts.size(), kNone);
   scratch.paths.resize(starts.size());
@@ -371,17 +370,17 @@ void CachedPaths::trace(std::span<const PathStart> starts, std::span<const Hit> 
         if (light.vertex == kNone) {  // between the camera and the first surface
           const Color arrived = light.direct * transmittance;
           batch.emission[light.path] += arrived;
-          if (batch.passes.any()) batch.passes.add(light.path, light.lobes, !light.indirect, arrived);
+          if (batch.parts.any_passes()) batch.parts.add(light.path, light.lobes, !light.indirect, arrived);
           return;
         }
         PathVertex& v = batch.vertices[static_cast<std::size_t>(light.vertex)];
         v.direct += light.direct * transmittance;
-        if (batch.passes.any() && v.previous == kNone) {
+        if (batch.parts.any_passes() && v.previous == kNone) {
           const Color arrived = v.link * light.direct * transmittance;
-          if (light.of_medium || batch.passes.first_scattering(v.path).in_medium) {
-            batch.passes.add_indirect(v.path, arrived);
+          if (light.of_medium || batch.parts.first_scattering(v.path).in_medium) {
+            batch.parts.add_indirect(v.path, arrived);
           } else {
-            batch.passes.add(v.path, light.lobes, true, arrived);
+            batch.parts.add(v.path, light.lobes, true, arrived);
           }
         }
         if (v.record != kNone) batch.target(v.record) += light.cached * transmittance;

@@ -142,7 +142,7 @@ class CachedPaths {
   /// Makes the next ray of a lane, if it has one. `weights` apply from `vertex` on, unless the path only
   /// passes a pane. `lobes`: those that it follows.
   void follow(Path& path, const PathBlock& block, int lane, const DirectionSample& sampled,
-              const VertexWeights& weights, std::int32_t vertex, const RenderPasses::FirstScattering& lobes,
+              const VertexWeights& weights, std::int32_t vertex, const LightParts::FirstScattering& lobes,
               PathBatch& batch, Scratch& scratch) const;
   /// `background`: of the sky.
   void add_emission(const Path& path, const Emission& emission, bool background, PathBatch& batch) const;

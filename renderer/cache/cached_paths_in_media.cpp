@@ -10,7 +10,6 @@ namespace gatelight::renderer {
                                                     PathBatch& batch, FirstHit* first, RayCounts& counts,
                                                     Scratch& scratch) const {
   const bool first_event = path.depth == 0;
-  const LobeShare volume{.rest = LobeShare::Rest::volume};
   const Color throughput = path.throughput;
   const FirstHit unscattered = first ? unscattered_hit(context_, path, ray, hit) : FirstHit{};
   const MediumWalk walk = walk_medium(
@@ -27,7 +26,7 @@ namespace gatelight::renderer {
             path.vertex, path.weights.scattered * light * weight, path.weights.cached * light * weight});
         pending.of_medium = true;
         pending.path = path.index;
-        pending.lobes = volume;
+        pending.lobes = {.rest = LobeShare::Rest::volume};
         pending.indirect = !first_event || event > 1;
       });
   path.weights *= walk.factor;
@@ -38,8 +37,7 @@ namespace gatelight::renderer {
   path.wide_events += 1;
   path.spread += walk.spread;
   if (first) record_medium(path, path.inside->color, unscattered, *first);
-  if (batch.passes.any() && first_event)
-    batch.passes.first_scattering(path.index) = {volume, volume, true, walk.events > 1};
+  if (batch.parts.any_passes() && first_event) batch.parts.scatter_in_medium(path.index, walk.events);
   return walk.alive;
 }
 

@@ -22,7 +22,7 @@ void PathBatch::begin(std::size_t paths) {
   first_records.assign(paths, kNone);
   ends.clear();
   guides.clear();
-  passes.begin({}, 0, 0);
+  parts.begin({}, 0, 0);
   answer_lobes.clear();
   unstored_hits = 0;
 }
@@ -59,8 +59,8 @@ void PathBatch::write_guides(std::span<const float> answers, std::span<FirstHit>
 
 void PathBatch::add_answer(std::size_t vertex, const Color& light) {
   const std::uint32_t path = vertices[vertex].path;
-  if (passes.first_scattering(path).in_medium) return passes.add_indirect(path, light);
-  passes.add(path, answer_lobes[vertex], false, light);
+  if (parts.first_scattering(path).in_medium) return parts.add_indirect(path, light);
+  parts.add(path, answer_lobes[vertex], false, light);
 }
 
 void PathBatch::resolve(std::span<const float> answers, std::span<Color> radiance) {
@@ -72,7 +72,7 @@ void PathBatch::resolve(std::span<const float> answers, std::span<Color> radianc
     if (v.query != kNone) {
       const Color answer = v.reflectance * color_at(answers, v.query);
       reflected += answer;
-      if (passes.any() && v.previous == kNone) add_answer(i, v.link * answer);
+      if (parts.any_passes() && v.previous == kNone) add_answer(i, v.link * answer);
     }
     if (v.previous == kNone) {
       if (!radiance.empty()) radiance[v.path] += v.link * reflected;
@@ -80,8 +80,8 @@ void PathBatch::resolve(std::span<const float> answers, std::span<Color> radianc
     }
     PathVertex& previous = vertices[static_cast<std::size_t>(v.previous)];
     previous.direct += v.link * reflected;
-    if (passes.any() && previous.previous == kNone)
-      passes.add_indirect(v.path, previous.link * v.link * reflected);
+    if (parts.any_passes() && previous.previous == kNone)
+      parts.add_indirect(v.path, previous.link * v.link * reflected);
     if (previous.record != kNone) target(previous.record) += v.cached_link * reflected;
   }
 }
@@ -107,12 +107,12 @@ void PathBatch::end_samples(std::span<const float> answers, std::span<Color> rad
       change *= vertices[static_cast<std::size_t>(at)].link;
     const Color before = radiance[v.path];
     radiance[v.path] = (before + change).max(0.0f);
-    if (!passes.any()) continue;
+    if (!parts.any_passes()) continue;
     const Color added = radiance[v.path] - before;
     if (v.previous == kNone) {
       add_answer(static_cast<std::size_t>(end), added);
     } else {
-      passes.add_indirect(v.path, added);
+      parts.add_indirect(v.path, added);
     }
   }
 }

@@ -8,7 +8,7 @@
 
 #include "renderer/cache/surface_points.h"
 #include "renderer/film/camera_sample.h"
-#include "renderer/film/render_passes.h"
+#include "renderer/film/light_parts.h"
 
 namespace gatelight::renderer {
 
@@ -58,7 +58,7 @@ struct PathBatch {
   /// PathPlan::samples_at.
   std::vector<std::int32_t> ends;
   std::vector<PathGuide> guides;  ///< for each path; empty unless PathPlan::guides
-  RenderPasses passes;            ///< of the samples of the picture, if PathPlan::passes
+  LightParts parts;               ///< of the samples of the picture, if PathPlan::passes
   /// For each vertex the lobes of the cache's answer there; empty without passes.
   std::vector<LobeShare> answer_lobes;
   std::uint64_t unstored_hits = 0;
@@ -76,7 +76,7 @@ struct PathBatch {
   void write_guides(std::span<const float> answers, std::span<FirstHit> first_hits) const;
 
   /// Sums up from the ends. Call it once. answers: 3 floats for each query, radiance over reflectance.
-  /// radiance: one for each path, or empty. Completes `targets` and `passes`.
+  /// radiance: one for each path, or empty. Completes `targets` and `parts`.
   void resolve(std::span<const float> answers, std::span<Color> radiance);
 
   /// The number of samples that end in the cache.

@@ -119,7 +119,7 @@ void RadianceRecords::finish(const AnswerPoints& answer, RecordBatch& batch) {
     const auto radiance = std::span(batch.radiance).subspan(first, batch.paths[block].paths());
     if (!batch.traced.empty()) std::copy(radiance.begin(), radiance.end(), &batch.traced[first]);
     batch.paths[block].end_samples(answers, radiance);
-    const std::span<const Color> parts = batch.paths[block].passes.parts();
+    const std::span<const Color> parts = batch.paths[block].parts.values();
     std::copy(parts.begin(), parts.end(), batch.parts.begin() + static_cast<std::ptrdiff_t>(first * passes_));
   };
   if (!answer.threads) {  // a device, which needs the points of all blocks at once

@@ -77,7 +77,7 @@ struct RecordBatch {
   /// First hits and radiance of starts that are the picture's samples; else empty.
   std::vector<FirstHit> first_hits;
   std::vector<Color> radiance;
-  std::vector<Color> parts;      ///< those of each sample that the film keeps (RenderPasses); empty without
+  std::vector<Color> parts;      ///< those of each sample that the film keeps (LightParts); empty without
   std::vector<Color> traced;     ///< the same without an end in the cache, if RecordRequest::to_the_end
   std::vector<PathBatch> paths;  ///< one for each block of starts, with the records of the block
   SurfacePoints records;

@@ -5,8 +5,8 @@
 #include <cstdint>
 
 #include "renderer/film/camera.h"
+#include "renderer/film/first_hit.h"
 #include "renderer/sampling/sampler.h"
-#include "renderer/surface/surface.h"
 
 namespace gatelight::renderer {
 
@@ -25,52 +25,6 @@ struct CameraSample {
     return ray;
   }
 };
-
-/// The first surface on the path that is neither a mirror nor clear, for the denoiser: a primary hit on a
-/// mirror or glass does not describe the picture. If there is none, it is the last surface on the path.
-struct GuideSurface {
-  bool hit = false;
-  std::int32_t surface = -1;       ///< its number on the path
-  Color tint{1.0f, 1.0f, 1.0f};    ///< of the surfaces before it
-  Color albedo{0.0f, 0.0f, 0.0f};  ///< times the tint
-  Vec3 normal = Vec3::Zero();
-};
-
-/// The surface at the primary hit, for the output variables.
-struct FirstHit {
-  bool hit = false;
-  float alpha = 1.0f;  ///< 1 minus the visible share of the background
-  Color albedo{0.0f, 0.0f, 0.0f};
-  Vec3 normal = Vec3::Zero();
-  Vec3 position = Vec3::Zero();
-  float depth = 0.0f;  ///< in metres from the eye along the ray
-  std::uint32_t instance = kNoInstance;
-  std::uint32_t primitive = 0;
-  GuideSurface guide;
-  bool guided = false;                     ///< cache_radiance is set
-  Color cache_radiance{0.0f, 0.0f, 0.0f};  ///< of the path, hit or not, computed only from the cache
-  // These come from the first cache query of the path.
-  bool queried = false;
-  Color answer{0.0f, 0.0f, 0.0f};
-  Color node{0.0f, 0.0f, 0.0f};
-  float error = 0.0f;
-  float training_count = 0.0f;
-  float resolution = 0.0f;
-};
-
-/// The position is in the file's coordinates. `origin` is the scene's origin.
-inline FirstHit first_hit(const Hit& hit, const Surface& surface, const Vec3& origin) {
-  FirstHit first;
-  first.hit = true;
-  first.albedo = surface.material.base_color;
-  first.normal = surface.shading_normal;
-  first.position = origin + surface.position;
-  first.depth = hit.t;
-  first.instance = hit.instance;
-  first.primitive = hit.primitive;
-  first.guide = {true, 0, Color::Ones(), first.albedo, first.normal};
-  return first;
-}
 
 struct SampleResult {
   Color radiance{0.0f, 0.0f, 0.0f};

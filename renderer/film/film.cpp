@@ -18,11 +18,6 @@ bool from_first_hit(Aov aov) {
   return info_of(aov).source == AovSource::first_hit;
 }
 
-template <class Number, class Vector>
-void accumulate(std::array<Number, 3>& sum, const Vector& v) {
-  for (int i = 0; i < 3; ++i) sum[static_cast<std::size_t>(i)] += static_cast<Number>(v[i]);
-}
-
 FilmSums empty_sums(const FilmContents& contents, std::size_t pixels) {
   const std::vector<Aov>& aovs = contents.aovs;
   FilmSums sums;
@@ -93,31 +88,7 @@ void Film::add(const PixelSample& sample, const FirstHit& first) {
     accumulate(sums_.guides[pixel].normal, first.guide.normal);
   }
   if (!sums_.alpha.empty()) sums_.alpha[pixel] += static_cast<double>(first.alpha);
-  if (!sums_.first_hits.empty()) add_first_hit(sums_.first_hits[pixel], first);
-}
-
-void Film::add_first_hit(FirstHitSum& p, const FirstHit& first) {
-  if (first.guided && first.cache_radiance.isFinite().all()) {
-    accumulate(p.cache, first.cache_radiance.matrix());
-    ++p.cached;
-  }
-  if (p.count++ == 0 && first.hit) {
-    p.instance = static_cast<float>(first.instance);
-    p.primitive = static_cast<float>(first.primitive);
-  }
-  if (!first.hit) return;
-  accumulate(p.albedo, first.albedo.matrix());
-  accumulate(p.normal, first.normal);
-  accumulate(p.position, first.position);
-  p.depth += static_cast<double>(first.depth);
-  ++p.hits;
-  if (!first.queried) return;
-  accumulate(p.answer, first.answer.matrix());
-  accumulate(p.node, first.node.matrix());
-  p.error += static_cast<double>(first.error);
-  p.training_count += static_cast<double>(first.training_count);
-  p.resolution += static_cast<double>(first.resolution);
-  ++p.queried;
+  if (!sums_.first_hits.empty()) sums_.first_hits[pixel].add(first);
 }
 
 void Film::add_parts(const Pixel& p, std::span<const Color> parts, float scale) {

@@ -98,7 +98,6 @@ class Film {
   static std::size_t bytes_per_pixel(const FilmContents& contents);
 
  private:
-  static void add_first_hit(FirstHitSum& p, const FirstHit& first);
   static double mean(const RadianceSum& p, std::size_t channel);
   /// Unbiased for independent samples, an upper bound for low-discrepancy samples.
   static double variance_of_mean(const RadianceSum& p, std::size_t channel);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
+#include <variant>
 
 #include "base/finite_float.h"
 #include "renderer/film/film.h"
@@ -30,32 +31,13 @@ double over(double sum, std::uint32_t count) {
   return count > 0 ? sum / count : 0.0;
 }
 
-/// Layers that are means of primary hits. The background counts as black where samples are counted, as in the
-/// beauty layer, so edges stay soft.
-struct VectorLayer {
-  Aov aov;
-  std::array<double, 3> FirstHitSum::*sum;
-  std::uint32_t FirstHitSum::*count;
-};
-constexpr VectorLayer kVectors[] = {
-    {Aov::albedo, &FirstHitSum::albedo, &FirstHitSum::count},
-    {Aov::normal, &FirstHitSum::normal, &FirstHitSum::count},
-    {Aov::position, &FirstHitSum::position, &FirstHitSum::hits},
-    {Aov::cache_radiance, &FirstHitSum::cache, &FirstHitSum::cached},
-    {Aov::cache_answer, &FirstHitSum::answer, &FirstHitSum::count},
-    {Aov::nearest_node, &FirstHitSum::node, &FirstHitSum::count},
-};
-struct NumberLayer {
-  Aov aov;
-  double FirstHitSum::*sum;
-  std::uint32_t FirstHitSum::*count;
-};
-constexpr NumberLayer kNumbers[] = {
-    {Aov::depth, &FirstHitSum::depth, &FirstHitSum::hits},
-    {Aov::cache_error, &FirstHitSum::error, &FirstHitSum::queried},
-    {Aov::training_count, &FirstHitSum::training_count, &FirstHitSum::queried},
-    {Aov::resolution, &FirstHitSum::resolution, &FirstHitSum::queried},
-};
+double channel_of(double number, std::size_t) {
+  return number;
+}
+
+double channel_of(const std::array<double, 3>& vector, std::size_t i) {
+  return vector[i];
+}
 
 }  // namespace
 
@@ -65,13 +47,14 @@ Layer Film::layer(Aov aov, Range range) const {
   const auto fill_with = [&](auto&& value) { fill(layer, range, value); };
   const HugeBuffer<FirstHitSum>& first = sums_.first_hits;
   const HugeBuffer<RadianceSum>& radiance = sums_.radiance;
-  for (const VectorLayer& v : kVectors) {
-    if (v.aov != aov) continue;
-    fill_with([&](std::size_t p, std::size_t i) { return over((first[p].*v.sum)[i], first[p].*v.count); });
-  }
-  for (const NumberLayer& n : kNumbers) {
-    if (n.aov != aov) continue;
-    fill_with([&](std::size_t p, std::size_t) { return over(first[p].*n.sum, first[p].*n.count); });
+  for (const FirstHitMean& row : kFirstHitMeans) {
+    if (row.aov != aov) continue;
+    const auto fill_by = [&](auto sum) {
+      fill_with([&](std::size_t p, std::size_t i) {
+        return over(channel_of(first[p].*sum, i), first[p].*row.count);
+      });
+    };
+    std::visit(fill_by, row.sum);
   }
   switch (aov) {
     case Aov::primitive_id:

@@ -9,6 +9,7 @@
 
 #include "base/platform/huge_buffer.h"
 #include "renderer/distributed/packing.h"
+#include "renderer/film/first_hit.h"
 
 namespace gatelight::renderer {
 
@@ -30,26 +31,6 @@ struct HalfSum {
 struct GuideSum {
   std::array<float, 3> albedo{};
   std::array<float, 3> normal{};
-};
-
-/// Data of primary hits for output variables.
-struct FirstHitSum {
-  std::array<double, 3> albedo{};
-  std::array<double, 3> normal{};
-  std::array<double, 3> position{};
-  std::array<double, 3> answer{};
-  std::array<double, 3> node{};
-  std::array<double, 3> cache{};
-  double depth = 0.0;
-  double error = 0.0;
-  double training_count = 0.0;
-  double resolution = 0.0;
-  std::uint32_t count = 0;  ///< number of samples
-  std::uint32_t queried = 0;
-  std::uint32_t hits = 0;
-  std::uint32_t cached = 0;
-  float instance = -1.0f;
-  float primitive = -1.0f;
 };
 
 /// Planes in rows from the top; one that is not kept is empty. New ones are zero, whose memory the first

@@ -22,11 +22,9 @@ std::vector<Aov> passes_among(std::span<const Aov> aovs) {
 }
 
 std::vector<Aov> all_passes() {
-  std::vector<Aov> passes;
-  for (const AovInfo& row : kAovs) {
-    if (row.source == AovSource::pass) passes.push_back(row.aov);
-  }
-  return passes;
+  std::vector<Aov> all;
+  for (const AovInfo& row : kAovs) all.push_back(row.aov);
+  return passes_among(all);
 }
 
 }  // namespace gatelight::renderer

@@ -91,8 +91,13 @@ struct AovInfo {
   std::string_view help;  ///< explains the name
 };
 
-constexpr AovInfo render_pass(Aov aov, std::string_view name, std::string_view help = "") {
-  return {aov, name, "RGB", AovSource::pass, AovNeeds::light, AovScaling::mean, AovLook::light, false, help};
+constexpr AovInfo render_pass(Aov aov, std::string_view name) {
+  return {.aov = aov,
+          .name = name,
+          .channels = "RGB",
+          .source = AovSource::pass,
+          .needs = AovNeeds::light,
+          .look = AovLook::light};
 }
 
 /// In the order of the enumeration. Cache variables hold the values at the vertex of a path's first query;

@@ -1,7 +1,7 @@
 #pragma once
 // The shares of the diffuse lobes in the results of shading, for the render passes.
 
-#include "renderer/film/render_passes.h"
+#include "renderer/film/light_parts.h"
 #include "renderer/transport/path_state.h"
 
 namespace gatelight::renderer {

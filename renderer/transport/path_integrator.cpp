@@ -8,7 +8,6 @@ namespace gatelight::renderer {
 [[gnu::noinline, gnu::cold]] bool PathIntegrator::walk(PathState& path, Ray& ray, Hit& hit, FirstHit* first,
                                                        RayCounts& counts, Scratch& scratch) const {
   const bool first_event = path.depth == 0;
-  const LobeShare volume{.rest = LobeShare::Rest::volume};
   const Color carried = path.carried();
   const FirstHit unscattered = first ? unscattered_hit(context_, path, ray, hit) : FirstHit{};
   const MediumWalk walk = walk_medium(
@@ -20,15 +19,14 @@ namespace gatelight::renderer {
         scratch.shadow_rays.push_back(shadow);
         PendingLight& pending =
             scratch.pending.emplace_back(PendingLight{contribution * weight, path.index, number});
-        if (!scratch.passes.any()) return;
+        if (!scratch.parts.any_passes()) return;
         pending.direct = first_event && event == 1;
-        pending.lobes = first_event ? volume : scratch.passes.first_scattering(path.index).scattered;
+        pending.lobes = first_event ? LobeShare{.rest = LobeShare::Rest::volume}
+                                    : scratch.parts.first_scattering(path.index).scattered;
       });
-  if (walk.events > 0) {
-    if (first) record_medium(path, path.inside->color, unscattered, *first);
-    if (scratch.passes.any() && first_event)
-      scratch.passes.first_scattering(path.index) = {volume, volume, true, walk.events > 1};
-  }
+  if (walk.events == 0) return walk.alive;
+  if (first) record_medium(path, path.inside->color, unscattered, *first);
+  if (scratch.parts.any_passes() && first_event) scratch.parts.scatter_in_medium(path.index, walk.events);
   return walk.alive;
 }
 
@@ -41,8 +39,8 @@ PathBlock* PathIntegrator::scatter(std::uint32_t number, PathState& path, Ray& r
     if (!emission.any()) return;
     const Color light = path.carried() * emission.radiance * emission.weight;
     radiance += light;
-    if (!groups.empty()) scratch.passes.add_to_group(path.index, group(), light);
-    if (scratch.passes.any()) scratch.passes.add_found(path.index, path.depth, background, light);
+    if (!groups.empty()) scratch.parts.add_to_group(path.index, group(), light);
+    if (scratch.parts.any_passes()) scratch.parts.add_found(path.index, path.depth, background, light);
   };
   if (!hit || path.looks_through(context_, hit)) {
     if (first) record_background(path, *first);
@@ -73,10 +71,10 @@ void PathIntegrator::add_light(const PathState& path, const PathBlock& block, in
   scratch.shadow_rays.push_back(shadow);
   PendingLight& pending =
       scratch.pending.emplace_back(PendingLight{contribution * weight, path.index, points.light[lane]});
-  if (!scratch.passes.any()) return;
+  if (!scratch.parts.any_passes()) return;
   pending.direct = path.depth == 0;
   pending.lobes =
-      pending.direct ? share_of_light(points, lane) : scratch.passes.first_scattering(path.index).scattered;
+      pending.direct ? share_of_light(points, lane) : scratch.parts.first_scattering(path.index).scattered;
 }
 
 void PathIntegrator::shade(PathBlock& block, std::span<FirstHit> first_hits, Scratch& scratch) const {
@@ -89,9 +87,9 @@ void PathIntegrator::shade(PathBlock& block, std::span<FirstHit> first_hits, Scr
     add_light(path, block, lane, scratch);
     if (!points.alive[lane]) continue;
     const DirectionSample sampled = direction_sample_at(block, lane);
-    if (scratch.passes.any() && path.depth == 0 && !sampled.through_pane) {
+    if (scratch.parts.any_passes() && path.depth == 0 && !sampled.through_pane) {
       const LobeShare lobes = share_of_direction(points, lane);
-      scratch.passes.first_scattering(path.index) = {lobes, lobes};
+      scratch.parts.first_scattering(path.index) = {lobes, lobes};
     }
     Ray next;
     if (path.advance(context_, block, lane, sampled, scratch.hits[number], next))
@@ -104,7 +102,7 @@ void PathIntegrator::trace(std::span<const CameraSample> samples, std::span<Samp
   scratch.paths.resize(samples.size());
   scratch.rays.resize(samples.size());
   const LightGroups& groups = context_.world.light_groups;
-  scratch.passes.begin(options_.passes, groups.size(), samples.size());
+  scratch.parts.begin(options_.passes, groups.size(), samples.size());
   for (std::size_t i = 0; i < samples.size(); ++i) {
     scratch.paths[i] = PathState(context_.world, samples[i], i);
     scratch.rays[i] = samples[i].ray();
@@ -123,9 +121,9 @@ void PathIntegrator::trace(std::span<const CameraSample> samples, std::span<Samp
         results[light.index].radiance += arrived;
         if (!groups.empty()) {
           const std::size_t group = groups.of_light(context_.world.lights.triangles(), light.light);
-          scratch.passes.add_to_group(light.index, group, arrived);
+          scratch.parts.add_to_group(light.index, group, arrived);
         }
-        if (scratch.passes.any()) scratch.passes.add(light.index, light.lobes, light.direct, arrived);
+        if (scratch.parts.any_passes()) scratch.parts.add(light.index, light.lobes, light.direct, arrived);
       });
 }
 

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "renderer/film/render_passes.h"
+#include "renderer/film/light_parts.h"
 #include "renderer/settings/options.h"
 #include "renderer/settings/statistics.h"
 #include "renderer/transport/lobe_shares.h"
@@ -43,7 +43,7 @@ class PathIntegrator {
   }
 
   /// Radiance of each sample. `first_hits` is empty, or as long as the samples. Adds to `rays`. Where the
-  /// world has light groups or there are passes, their parts are in Scratch::passes.
+  /// world has light groups or there are passes, their parts are in Scratch::parts.
   void trace(std::span<const CameraSample> samples, std::span<SampleResult> results,
              std::span<FirstHit> first_hits, RayCounts& rays, Scratch& scratch) const;
 
@@ -71,7 +71,7 @@ struct PendingLight {
 };
 
 struct PathIntegrator::Scratch : Waves<PathState, PendingLight> {
-  RenderPasses passes;
+  LightParts parts;
 };
 
 }  // namespace gatelight::renderer

@@ -24,7 +24,7 @@ void ReferencePass::run(int samples, Film& film, const std::function<void(double
       } else {
         ao_.trace(w.samples, w.results, w.first_hits, w.rays, w.ao);
       }
-      add_to_film(w.taken, options, w.results, w.first_hits, film, w.counts, w.path.passes.parts());
+      add_to_film(w.taken, options, w.results, w.first_hits, film, w.counts, w.path.parts.values());
     }
   });
 }

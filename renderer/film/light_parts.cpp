@@ -1,8 +1,8 @@
-#include "renderer/film/render_passes.h"
+#include "renderer/film/light_parts.h"
 
 namespace gatelight::renderer {
 
-void RenderPasses::begin(std::span<const Aov> passes, std::size_t groups, std::size_t samples) {
+void LightParts::begin(std::span<const Aov> passes, std::size_t groups, std::size_t samples) {
   place_.fill(kNone);
   for (std::size_t i = 0; i < passes.size(); ++i) place_[static_cast<std::size_t>(passes[i])] = groups + i;
   stride_ = groups + passes.size();
@@ -10,12 +10,12 @@ void RenderPasses::begin(std::span<const Aov> passes, std::size_t groups, std::s
   first_scattering_.assign(passes.empty() ? 0 : samples, {});
 }
 
-void RenderPasses::add(std::size_t sample, Aov pass, const Color& light) {
+void LightParts::add(std::size_t sample, Aov pass, const Color& light) {
   const std::size_t place = place_[static_cast<std::size_t>(pass)];
   if (place != kNone) parts_[sample * stride_ + place] += light;
 }
 
-void RenderPasses::add(std::size_t sample, const LobeShare& lobes, bool direct, const Color& light) {
+void LightParts::add(std::size_t sample, const LobeShare& lobes, bool direct, const Color& light) {
   constexpr Aov kDirect[] = {Aov::glossy_direct, Aov::transmission_direct, Aov::volume_direct};
   constexpr Aov kIndirect[] = {Aov::glossy_indirect, Aov::transmission_indirect, Aov::volume_indirect};
   const Color diffuse = lobes.diffuse * light;
@@ -23,7 +23,7 @@ void RenderPasses::add(std::size_t sample, const LobeShare& lobes, bool direct, 
   add(sample, (direct ? kDirect : kIndirect)[static_cast<std::size_t>(lobes.rest)], light - diffuse);
 }
 
-void RenderPasses::add_found(std::size_t sample, int events, bool background, const Color& light) {
+void LightParts::add_found(std::size_t sample, int events, bool background, const Color& light) {
   if (events == 0) return add(sample, background ? Aov::background : Aov::emission, light);
   const FirstScattering& first = first_scattering_[sample];
   if (events == 1 && !first.indirect) return add(sample, first.emitted, true, light);

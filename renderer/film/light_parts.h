@@ -1,8 +1,8 @@
 #pragma once
-// The render passes: parts of the light of a sample. Light that reaches the camera without a scattering event
-// is emission or background. The rest is split by the lobes of the first surface that scattered it, and into
-// direct light, which is emitted by what that surface sees, and indirect light. Panes that a path passes are
-// no scattering events.
+// The parts of the light of a sample that are layers: light groups and render passes. In the passes, light
+// that reaches the camera without a scattering event is emission or background. The rest is split by the
+// lobes of the first surface that scattered it, and into direct light, which is emitted by what that surface
+// sees, and indirect light. Panes that a path passes are no scattering events.
 
 #include <array>
 #include <cstdint>
@@ -27,15 +27,15 @@ inline Color share_of(const Color& part, const Color& whole) {
   return (whole > 0.0f).select((part / whole).min(1.0f), Color::Zero());
 }
 
-/// The parts of samples that are layers: of light groups, then of passes.
-class RenderPasses {
+/// The parts of samples: of light groups, then of passes.
+class LightParts {
  public:
   /// Begins the parts of `samples` samples. `groups`: number of light groups.
   void begin(std::span<const Aov> passes, std::size_t groups, std::size_t samples);
   /// Whether there are passes.
-  bool any() const { return !first_scattering_.empty(); }
+  bool any_passes() const { return !first_scattering_.empty(); }
   /// All parts of the first sample, then those of the next.
-  std::span<const Color> parts() const { return parts_; }
+  std::span<const Color> values() const { return parts_; }
 
   void add_to_group(std::size_t sample, std::size_t group, const Color& light) {
     parts_[sample * stride_ + group] += light;
@@ -53,6 +53,11 @@ class RenderPasses {
     bool indirect = false;   ///< several events counted as one: no light after them is direct
   };
   FirstScattering& first_scattering(std::size_t sample) { return first_scattering_[sample]; }
+  /// The first scattering event is in a medium, in front of the first surface, with `events` there.
+  void scatter_in_medium(std::size_t sample, int events) {
+    const LobeShare volume{.rest = LobeShare::Rest::volume};
+    first_scattering_[sample] = {volume, volume, true, events > 1};
+  }
   /// Light that a path found after `events` scattering events, as emission or as background.
   void add_found(std::size_t sample, int events, bool background, const Color& light);
   /// Indirect light of the lobes that the path followed.
