@@ -20,6 +20,7 @@
 #include "base/image/png_write.h"
 #include "gatelight_view_page.inc"
 #include "renderer/image/image_write.h"
+#include "renderer/settings/aovs.h"
 #include "renderer/settings/enum_names.h"
 
 namespace gatelight::apps {
@@ -42,6 +43,12 @@ WebResponse page_file(const std::string& name) {
 const char* name_of_stage(Stage stage) {
   constexpr const char* kNames[] = {"none", "draft", "preview", "refined", "final"};
   return kNames[static_cast<int>(stage)];
+}
+
+const char* name_of_needs(renderer::AovNeeds needs) {
+  constexpr const char* kWords[] = {"nothing",    "light", "frames", "a cache", "a cache of radiance",
+                                    "mesh colors"};
+  return kWords[static_cast<int>(needs)];
 }
 
 WebResponse json_response(const ordered_json& json, int status = 200) {
@@ -112,6 +119,22 @@ ordered_json describe(const SceneOutline& outline) {
           {"has_own_light", outline.has_own_light}};
 }
 
+/// The layers that the page offers: those of a scene's pictures, or of the finished picture.
+ordered_json describe_layers(const renderer::Picture* finished) {
+  ordered_json layers = ordered_json::array();
+  if (finished) {
+    for (const renderer::Layer& layer : finished->layers)
+      layers.push_back({{"name", layer.name}, {"label", layer.name.empty() ? "picture" : layer.name}});
+    return layers;
+  }
+  layers.push_back({{"name", ""}, {"label", "picture"}});
+  for (const renderer::AovInfo& row : renderer::kAovs) {
+    if (row.label.empty()) continue;
+    layers.push_back({{"name", row.name}, {"label", row.label}, {"needs", name_of_needs(row.needs)}});
+  }
+  return layers;
+}
+
 /// Where a wide picture is made, and the page asks for a layer that drafts lack, the last whole one is shown.
 const renderer::Picture* picture_with(const ShownPicture* shown, const std::string& layer) {
   if (!shown || (!layer.empty() && shown->picture.find(layer) == nullptr)) return nullptr;
@@ -159,10 +182,10 @@ WebResponse ViewApi::scene(const std::string& viewer) {
   ordered_json json{
       {"file", source_.file()}, {"given", words}, {"flags", source_.flags(viewer)}, {"curves", curves}};
   if (const SceneOutline* outline = source_.outline()) {
+    json["layers"] = describe_layers(nullptr);
     json.update(describe(*outline));
   } else if (const auto shown = source_.last_whole(viewer)) {
-    json["layers"] = ordered_json::array();
-    for (const renderer::Layer& layer : shown->picture.layers) json["layers"].push_back(layer.name);
+    json["layers"] = describe_layers(&shown->picture);
   }
   return json_response(json);
 }

@@ -87,8 +87,9 @@ struct AovInfo {
   AovNeeds needs = AovNeeds::nothing;
   AovScaling scaling = AovScaling::mean;
   AovLook look = AovLook::heat;
-  bool half = false;      ///< half precision suffices
-  std::string_view help;  ///< explains the name
+  std::string_view label;  ///< of its button in the window; empty: it has none
+  bool half = false;       ///< half precision suffices
+  std::string_view help;   ///< explains the name
 };
 
 constexpr AovInfo render_pass(Aov aov, std::string_view name) {
@@ -103,16 +104,27 @@ constexpr AovInfo render_pass(Aov aov, std::string_view name) {
 /// In the order of the enumeration. Cache variables hold the values at the vertex of a path's first query;
 /// without a query they are black.
 inline constexpr AovInfo kAovs[] = {
-    {.aov = Aov::albedo, .name = "albedo", .channels = "RGB", .look = AovLook::color, .half = true},
-    {.aov = Aov::normal, .name = "normal", .channels = "XYZ", .look = AovLook::direction, .half = true},
-    {.aov = Aov::depth, .name = "depth", .channels = "Z", .scaling = AovScaling::first},
+    {.aov = Aov::albedo,
+     .name = "albedo",
+     .channels = "RGB",
+     .look = AovLook::color,
+     .label = "albedo",
+     .half = true},
+    {.aov = Aov::normal,
+     .name = "normal",
+     .channels = "XYZ",
+     .look = AovLook::direction,
+     .label = "normal",
+     .half = true},
+    {.aov = Aov::depth, .name = "depth", .channels = "Z", .scaling = AovScaling::first, .label = "depth"},
     {.aov = Aov::position, .name = "position", .channels = "XYZ", .scaling = AovScaling::first},
     {.aov = Aov::primitive_id, .name = "primitive", .channels = "id", .scaling = AovScaling::first},
     {.aov = Aov::instance_id,
      .name = "instance",
      .channels = "id",
      .scaling = AovScaling::first,
-     .look = AovLook::id},
+     .look = AovLook::id,
+     .label = "objects"},
     {.aov = Aov::alpha, .name = "alpha", .channels = "A", .source = AovSource::samples},
     {.aov = Aov::sample_count,
      .name = "samples",
@@ -134,6 +146,7 @@ inline constexpr AovInfo kAovs[] = {
      .name = "error",
      .channels = "RGB",
      .source = AovSource::samples,
+     .label = "error",
      .help = "the estimated standard error"},
     {.aov = Aov::denoising,
      .name = "denoising",
@@ -166,6 +179,7 @@ inline constexpr AovInfo kAovs[] = {
      .channels = "RGB",
      .needs = AovNeeds::radiance_cache,
      .look = AovLook::light,
+     .label = "bare cache",
      .help = "the picture that the cache gives alone"},
     {.aov = Aov::cache_answer,
      .name = "cache-answer",

@@ -102,18 +102,15 @@ function makeDisplayControls(scene) {
   return {step: by => { exposure.set(Number(exposure.value) + by); exposure.dispatchEvent(new Event("input")); }};
 }
 
-const kLayers = [["", "picture"], ["albedo", "albedo"], ["normal", "normal"], ["depth", "depth"], ["instance", "objects"], ["cache-radiance", "bare cache"], ["error", "error"]];
-
 function makeLayerControls(scene) {
   const groups = flagOf(scene, "light-groups").split(";").map(text => text.split("=")[0].trim()).filter(Boolean);
-  const layers = scene.layers ? scene.layers.map(name => [name, name || "picture"])
-    : [...kLayers, ...groups.map(name => [`light-${name}`, `light: ${name}`])];
+  const layers = [...scene.layers, ...groups.map(name => ({name: `light-${name}`, label: `light: ${name}`}))];
   const parent = element("div", {className: "choices", role: "radiogroup"});
   document.getElementById("layer-controls").append(parent);
-  return layers.map(([key, name], i) => {
-    const input = element("input", {type: "radio", name: "layer", value: key, checked: i === 0});
-    input.addEventListener("change", () => picture.setLayer(key));
-    parent.append(element("label", {}, input, ` ${name}`));
+  return layers.map(({name, label, needs = "nothing"}, i) => {
+    const input = element("input", {type: "radio", name: "layer", value: name, checked: i === 0});
+    input.addEventListener("change", () => picture.setLayer(name));
+    parent.append(element("label", {title: needs === "nothing" ? "" : `needs ${needs}`}, input, ` ${label}`));
     return input;
   });
 }

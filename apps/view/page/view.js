@@ -129,7 +129,7 @@ async function start() {
   }
   document.getElementById("title").textContent = document.title = scene.file.split("/").pop();
   const display = makeDisplayControls(scene), layers = makeLayerControls(scene), time = makeTimeControls(scene);
-  if (scene.layers) {
+  if (!scene.cameras) {
     for (const id of ["camera-controls", "light-controls", "sky-controls"]) document.getElementById(id).parentElement.hidden = true;
   } else {
     document.addEventListener("picture", event => followView(scene, event.detail));

@@ -30,7 +30,8 @@ TEST_F(PictureFiles, AreShownWithTheirLayers) {
   PictureFile file(path("a.exr"), {"--exposure=0"});
   ViewApi api(file);
   const json scene = json::parse(api.answer({"GET", "api/scene", {}, ""}).body);
-  EXPECT_EQ(scene["layers"], json({"", "depth"}));
+  EXPECT_EQ(scene["layers"],
+            json::parse(R"([{"name": "", "label": "picture"}, {"name": "depth", "label": "depth"}])"));
   EXPECT_FALSE(scene.contains("cameras"));
   for (const char* layer : {"", "depth"}) {
     const WebResponse response = api.answer({"GET", "api/picture", {{"after", "0"}, {"layer", layer}}, ""});

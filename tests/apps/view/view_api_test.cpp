@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <random>
@@ -50,6 +51,12 @@ TEST_F(Api, DescribesTheScene) {
   EXPECT_FALSE(scene["glowing"].empty());
   EXPECT_GT(scene["radius"].get<float>(), 0.0f);
   EXPECT_EQ(scene["curves"].front(), "none");
+  EXPECT_EQ(scene["layers"].front(), json::parse(R"({"name": "", "label": "picture"})"));
+  for (const renderer::AovInfo& row : renderer::kAovs) {
+    const auto shown = std::count_if(scene["layers"].begin(), scene["layers"].end(),
+                                     [&](const json& layer) { return layer["name"] == row.name; });
+    EXPECT_EQ(shown, row.label.empty() ? 0 : 1) << row.name;
+  }
 }
 
 TEST_F(Api, GivesPicturesAndLayers) {
