@@ -1,5 +1,7 @@
 #include "scene/material_fields.h"
 
+#include <algorithm>
+
 namespace gatelight::scene {
 namespace {
 
@@ -95,10 +97,34 @@ constexpr MaterialField kFields[] = {
 };
 #undef FIELD
 
+/// Reflection and transmission of glTF's base are no rows. Anisotropy only shapes the reflection.
+constexpr MaterialLobe kLobes[] = {
+    {"diffuse_transmission", kDiffuse},
+    {"iridescence", kIridescence},
+    {"anisotropy", kAnisotropy, false},
+    {"clearcoat", kClearcoat},
+    {"sheen", kSheen},
+};
+
 }  // namespace
 
 std::span<const MaterialField> material_fields() {
   return kFields;
+}
+
+bool is_used(const Material& material, std::string_view extension) {
+  const auto* const factor =
+      std::find_if(std::begin(kFields), std::end(kFields),
+                   [&](const MaterialField& field) { return field.extension == extension; });
+  if (factor == std::end(kFields)) return false;
+  if (const auto* const number = std::get_if<float Material::*>(&factor->member))
+    return material.*(*number) > 0.0f;
+  const auto* const color = std::get_if<Color Material::*>(&factor->member);
+  return color && (material.*(*color) > 0.0f).any();
+}
+
+std::span<const MaterialLobe> material_lobes() {
+  return kLobes;
 }
 
 }  // namespace gatelight::scene

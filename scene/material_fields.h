@@ -3,6 +3,7 @@
 
 #include <span>
 #include <string>
+#include <string_view>
 #include <variant>
 
 #include "scene/scene.h"
@@ -31,8 +32,20 @@ struct MaterialField {
   const char* meaning;  ///< for users, with its unit; empty: only files have it
 };
 
-/// In the order of Material's members.
+/// In the order of Material's members. The first one of an extension is its factor: where it is zero, the
+/// others have no effect.
 std::span<const MaterialField> material_fields();
+
+/// Whether the factor of an extension is above zero.
+bool is_used(const Material& material, std::string_view extension);
+
+/// An extension that adds a lobe to the material, or shapes one.
+struct MaterialLobe {
+  std::string_view name;  ///< of the extension, without "KHR_materials_"
+  const char* extension;
+  bool view_dependent = true;  ///< a surface that has no other lobes looks different from other directions
+};
+std::span<const MaterialLobe> material_lobes();
 
 /// Calls visit(slot, whether its RGB are sRGB values) for every texture slot of a material, in their order.
 template <typename M, typename Visit>

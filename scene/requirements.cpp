@@ -12,8 +12,11 @@ namespace {
 /// not reflect.
 bool is_view_dependent(const Material& m) {
   if (m.unlit) return false;
-  const bool reflects = (m.specular > 0.0f && m.ior != 1.0f) || m.iridescence > 0.0f;
-  return m.metallic > 0.0f || reflects || m.transmits() || m.clearcoat > 0.0f || (m.sheen_color > 0.0f).any();
+  if (m.metallic > 0.0f || (m.specular > 0.0f && m.ior != 1.0f) || m.transmission > 0.0f) return true;
+  const auto lobes = material_lobes();
+  return std::any_of(lobes.begin(), lobes.end(), [&](const MaterialLobe& lobe) {
+    return lobe.view_dependent && is_used(m, lobe.extension);
+  });
 }
 
 void add_material(const Material& m, SceneRequirements& r) {
@@ -23,12 +26,11 @@ void add_material(const Material& m, SceneRequirements& r) {
   r.alpha_blend |= m.alpha_mode == AlphaMode::blend;
   r.transmission |= m.transmits();
   r.volumes |= m.has_volume();
-  r.diffuse_transmission |= m.diffuse_transmission > 0.0f;
   r.dispersion |= m.disperses();
-  r.iridescence |= m.iridescence > 0.0f;
-  r.anisotropy |= m.anisotropy > 0.0f;
-  r.clearcoat |= m.clearcoat > 0.0f;
   r.sheen |= (m.sheen_color > 0.0f).any();
+  for (const MaterialLobe& lobe : material_lobes()) {
+    if (!r.has_lobe(lobe.name) && is_used(m, lobe.extension)) r.lobes.push_back(lobe.name);
+  }
   r.unlit |= m.unlit;
   r.normal_maps |= m.normal_texture || (m.clearcoat > 0.0f && m.clearcoat_normal_texture);
   r.base_color_textures |= static_cast<bool>(m.base_color_texture);

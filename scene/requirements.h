@@ -2,7 +2,10 @@
 // The features that a scene needs from the renderer and the cache. They are computed once after loading;
 // later stages build only what is listed here.
 
+#include <algorithm>
 #include <cstddef>
+#include <string_view>
+#include <vector>
 
 #include "scene/scene.h"
 
@@ -17,12 +20,8 @@ struct SceneRequirements {
   bool transmission = false;
   bool volumes = false;         ///< transmission into an interior with absorption
   bool nested_volumes = false;  ///< volumes overlap, or lie inside one another (nested_volumes.h)
-  bool diffuse_transmission = false;
   bool dispersion = false;
-  bool iridescence = false;
-  bool anisotropy = false;
-  bool clearcoat = false;
-  bool sheen = false;
+  bool sheen = false;  ///< its tables take a while to build
   bool unlit = false;
   bool normal_maps = false;
   bool vertex_colors = false;
@@ -36,9 +35,13 @@ struct SceneRequirements {
   bool directional_lights = false;
   std::size_t emissive_triangles = 0;  ///< counted once per instance
   std::size_t emissive_materials = 0;
+  std::vector<std::string_view> lobes;  ///< names of the material_lobes() that some material has
 
   /// Whether rays need an alpha test.
   bool alpha() const { return alpha_mask || alpha_blend; }
+  bool has_lobe(std::string_view name) const {
+    return std::find(lobes.begin(), lobes.end(), name) != lobes.end();
+  }
 };
 
 SceneRequirements compute_requirements(const Scene& scene);

@@ -11,6 +11,7 @@
 #include "apps/terminal/errors.h"
 #include "apps/terminal/text.h"
 #include "renderer/film/memory_estimate.h"
+#include "scene/material_fields.h"
 #include "scene/nested_volumes.h"
 
 namespace gatelight::apps {
@@ -31,12 +32,7 @@ constexpr NamedRequirement kRequirements[] = {
     {"transmission", &SceneRequirements::transmission},
     {"volumes", &SceneRequirements::volumes},
     {"nested_volumes", &SceneRequirements::nested_volumes},
-    {"diffuse_transmission", &SceneRequirements::diffuse_transmission},
     {"dispersion", &SceneRequirements::dispersion},
-    {"iridescence", &SceneRequirements::iridescence},
-    {"anisotropy", &SceneRequirements::anisotropy},
-    {"clearcoat", &SceneRequirements::clearcoat},
-    {"sheen", &SceneRequirements::sheen},
     {"unlit", &SceneRequirements::unlit},
     {"normal_maps", &SceneRequirements::normal_maps},
     {"vertex_colors", &SceneRequirements::vertex_colors},
@@ -238,6 +234,9 @@ std::string describe_requirements(const SceneRequirements& requirements) {
   for (const NamedRequirement& requirement : kRequirements) {
     if (requirements.*requirement.flag) names.emplace_back(requirement.key);
   }
+  for (const scene::MaterialLobe& lobe : scene::material_lobes()) {
+    if (requirements.has_lobe(lobe.name)) names.push_back(lobe.name);
+  }
   return names.empty() ? "nothing special" : fmt::format("{}", fmt::join(names, ", "));
 }
 
@@ -328,6 +327,8 @@ ordered_json scene_report_json(const scene::Scene& scene, const SceneRequirement
   for (const NamedRequirement& requirement : kRequirements) {
     json["requirements"][requirement.key] = requirements.*requirement.flag;
   }
+  for (const scene::MaterialLobe& lobe : scene::material_lobes())
+    json["requirements"][std::string(lobe.name)] = requirements.has_lobe(lobe.name);
   json["requirements"]["emissive_triangles"] = requirements.emissive_triangles;
   json["requirements"]["emissive_materials"] = requirements.emissive_materials;
   json["memory_bytes"] = {{"geometry", scene::geometry_bytes(scene)},

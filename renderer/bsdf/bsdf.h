@@ -53,6 +53,14 @@ struct SurfaceMaterial {
   float sheen_roughness = 0.0f;
 };
 
+/// Where one of these is above zero, the surface has a lobe that the kernels of shading/ lack.
+inline constexpr float SurfaceMaterial::*kScalarLobes[] = {&SurfaceMaterial::anisotropy,
+                                                           &SurfaceMaterial::iridescence};
+/// Members by whose difference the light of two surfaces differs: shares of lobes, and indices.
+inline constexpr float SurfaceMaterial::*kShares[] = {
+    &SurfaceMaterial::metallic, &SurfaceMaterial::specular,   &SurfaceMaterial::transmission,
+    &SurfaceMaterial::ior,      &SurfaceMaterial::dispersion, &SurfaceMaterial::diffuse_transmission};
+
 struct BsdfValue {
   Color value{0.0f, 0.0f, 0.0f};  ///< f * |cos|, without delta lobes
   float pdf = 0.0f;               ///< with which sample() chooses wi, per solid angle, without delta lobes

@@ -11,12 +11,14 @@
 
 namespace gatelight::renderer {
 
-/// Whether the kernels support all lobes of a surface. They do not support refraction into an inside,
-/// anisotropic metal and thin films.
+/// Whether the kernels support all lobes of a surface. They do not support refraction into an inside
+/// and kScalarLobes.
 inline bool kernels_shade(const Surface& surface) {
   const SurfaceMaterial& m = surface.material;
-  return !(m.anisotropy > 0.0f) && !(m.iridescence > 0.0f) &&
-         (m.thin_walled || !(m.transmission > 0.0f || m.diffuse_transmission > 0.0f));
+  for (float SurfaceMaterial::*const lobe : kScalarLobes) {
+    if (m.*lobe > 0.0f) return false;
+  }
+  return m.thin_walled || !(m.transmission > 0.0f || m.diffuse_transmission > 0.0f);
 }
 
 /// Fills what the scalar code reads of a lane's surface besides ScalarLane. `wo` is unit, away from the

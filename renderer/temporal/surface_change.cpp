@@ -36,10 +36,9 @@ float colors_change(const SurfaceMaterial& a, const SurfaceMaterial& b) {
 
 float factors_change(const SurfaceMaterial& a, const SurfaceMaterial& b) {
   const float film = std::max(a.iridescence, b.iridescence);
-  return std::abs(a.metallic - b.metallic) + std::abs(a.specular - b.specular) +
-         std::abs(a.transmission - b.transmission) + std::abs(a.ior - b.ior) +
-         std::abs(a.dispersion - b.dispersion) + std::abs(a.diffuse_transmission - b.diffuse_transmission) +
-         lobe_change(gloss_of(a).share, gloss_of(b).share, a.roughness, b.roughness) +
+  float shares = 0.0f;
+  for (float SurfaceMaterial::*const share : kShares) shares += std::abs(a.*share - b.*share);
+  return shares + lobe_change(gloss_of(a).share, gloss_of(b).share, a.roughness, b.roughness) +
          lobe_change(a.clearcoat, b.clearcoat, a.clearcoat_roughness, b.clearcoat_roughness) +
          a.sheen_color.maxCoeff() * relative(a.sheen_roughness, b.sheen_roughness, kSmoothest) +
          std::abs(a.iridescence - b.iridescence) +

@@ -182,23 +182,13 @@ class Converter {
 
   /// A texture whose factor is zero has no effect: it is not decoded and need not exist.
   static void drop_unread_textures(Material& m) {
-    const auto keep = [](bool condition, std::initializer_list<TextureSlot*> slots) {
-      for (TextureSlot* slot : slots) {
-        if (!condition) *slot = {};
-      }
-    };
-    keep(!m.unlit,
-         {&m.metallic_roughness_texture, &m.glossiness_texture, &m.normal_texture, &m.emission_texture});
-    keep(m.emits(), {&m.emission_texture});
-    keep(!m.unlit && m.specular > 0.0f, {&m.specular_texture, &m.specular_color_texture});
-    keep(!m.unlit && m.iridescence > 0.0f, {&m.iridescence_texture, &m.film_thickness_texture});
-    keep(!m.unlit && m.anisotropy > 0.0f, {&m.anisotropy_texture});
-    keep(!m.unlit && m.transmission > 0.0f, {&m.transmission_texture});
-    keep(!m.unlit && m.diffuse_transmission > 0.0f,
-         {&m.diffuse_transmission_texture, &m.diffuse_transmission_color_texture});
-    keep(!m.unlit && m.clearcoat > 0.0f,
-         {&m.clearcoat_texture, &m.clearcoat_roughness_texture, &m.clearcoat_normal_texture});
-    keep(!m.unlit && (m.sheen_color > 0.0f).any(), {&m.sheen_color_texture, &m.sheen_roughness_texture});
+    for (const MaterialField& field : material_fields()) {
+      const auto* const member = std::get_if<TextureSlot Material::*>(&field.member);
+      if (!member || *member == &Material::base_color_texture) continue;
+      const bool of_extension = *field.extension != '\0';
+      if (m.unlit || (of_extension && !is_used(m, field.extension))) m.*(*member) = {};
+    }
+    if (!m.emits()) m.emission_texture = {};
   }
 
   float unit(double value, std::string_view name) {

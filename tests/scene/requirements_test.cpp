@@ -56,8 +56,11 @@ TEST(Requirements, OnlyLambertIsViewIndependent) {
   EXPECT_FALSE(with([](Material& m) { m.specular = 0.1f, m.ior = 1.0f; }));
   EXPECT_TRUE(with([](Material& m) { m.metallic = 0.1f; }));
   EXPECT_TRUE(with([](Material& m) { m.clearcoat = 0.1f; }));
+  EXPECT_TRUE(with([](Material& m) { m.iridescence = 0.1f; }));
+  EXPECT_FALSE(with([](Material& m) { m.anisotropy = 0.1f; }));
   EXPECT_TRUE(with([](Material& m) { m.sheen_color = Color(0, 0.1f, 0); }));
   EXPECT_TRUE(with([](Material& m) { m.transmission = 0.1f; }));
+  EXPECT_TRUE(with([](Material& m) { m.diffuse_transmission = 0.1f; }));
   EXPECT_FALSE(with([](Material& m) { m.metallic = 1.0f, m.unlit = true; }));
 }
 
@@ -86,14 +89,16 @@ TEST(Requirements, FeaturesAreFoundInUsedMaterialsOnly) {
   m.emission_texture.texture = 0;
   Scene scene = scene_of({m});
   SceneRequirements r = compute_requirements(scene);
-  EXPECT_TRUE(r.alpha_blend && r.alpha() && r.transmission && r.volumes && r.clearcoat && r.sheen && r.unlit);
+  EXPECT_TRUE(r.alpha_blend && r.alpha() && r.transmission && r.volumes && r.unlit);
+  EXPECT_TRUE(r.has_lobe("clearcoat") && r.has_lobe("sheen") && !r.has_lobe("iridescence"));
   EXPECT_FALSE(r.alpha_mask);
   EXPECT_TRUE(r.base_color_textures && r.metallic_roughness_textures && r.normal_maps && r.other_textures &&
               r.emission_textures);
   EXPECT_EQ(r.emissive_materials, 1u);
   scene.instances.clear();
   r = compute_requirements(scene);
-  EXPECT_FALSE(r.alpha() || r.transmission || r.clearcoat || r.base_color_textures || r.triangles);
+  EXPECT_FALSE(r.alpha() || r.transmission || r.has_lobe("clearcoat") || r.base_color_textures ||
+               r.triangles);
   EXPECT_EQ(r.emissive_materials, 0u);
 }
 
