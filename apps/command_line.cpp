@@ -186,7 +186,7 @@ int fail(const ConfigFile& config) {
   return failure.code;
 }
 
-int parse(int argc, const char* const* argv, bool runs, const RankGroup& group) {
+int parse(int argc, const char* const* argv, bool runs, RunTeam& team) {
   CLI::App root("Gatelight, an offline path tracer for glTF scenes", "gatelight");
   root.footer(kProgramFooter);
   root.set_version_flag("--version", version());
@@ -197,7 +197,7 @@ int parse(int argc, const char* const* argv, bool runs, const RankGroup& group) 
   root.formatter(make_help_formatter());
   const std::shared_ptr<const ConfigFile> config = accept_config_file(root);
   const std::vector<Subcommand> subcommands = {
-      add_render_command(root, std::vector<std::string>(argv, argv + argc), group),
+      add_render_command(root, std::vector<std::string>(argv, argv + argc), team),
       add_compare_command(root),
       add_info_command(root),
       add_merge_command(root),
@@ -216,7 +216,7 @@ int parse(int argc, const char* const* argv, bool runs, const RankGroup& group) 
     refuse_empty_words(root);
     for (const Subcommand& subcommand : subcommands) {
       if (!subcommand.app->parsed()) continue;
-      if (!group.is_alone() && !subcommand.of_ranks) {
+      if (!team.is_alone() && subcommand.app->get_name() != "render") {
         throw BadOption(fmt::format("'{0}' runs in one process: start it with 'gatelight {0}'",
                                     subcommand.app->get_name()));
       }
@@ -240,10 +240,10 @@ bool wants_json(int argc, const char* const* argv) {
   return false;
 }
 
-int parse_or_fail(int argc, const char* const* argv, bool runs, const RankGroup& group) {
+int parse_or_fail(int argc, const char* const* argv, bool runs, RunTeam& team) {
   set_json_messages(wants_json(argc, argv));
   try {
-    return parse(argc, argv, runs, group);
+    return parse(argc, argv, runs, team);
   } catch (...) {
     return fail({});
   }
@@ -252,15 +252,17 @@ int parse_or_fail(int argc, const char* const* argv, bool runs, const RankGroup&
 }  // namespace
 
 int read_only(int argc, const char* const* argv) {
-  return parse_or_fail(argc, argv, false, {renderer::one_rank(), 1, {}});
+  RunTeam alone;
+  return parse_or_fail(argc, argv, false, alone);
 }
 
 int run(int argc, const char* const* argv) {
-  return run(argc, argv, {renderer::one_rank(), 1, {}});
+  RunTeam alone;
+  return run(argc, argv, alone);
 }
 
-int run(int argc, const char* const* argv, const RankGroup& group) {
-  return parse_or_fail(argc, argv, true, group);
+int run(int argc, const char* const* argv, RunTeam& team) {
+  return parse_or_fail(argc, argv, true, team);
 }
 
 }  // namespace gatelight::apps

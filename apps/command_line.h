@@ -1,6 +1,6 @@
 #pragma once
 
-#include "apps/ranks/rank_group.h"
+#include "apps/render/run_team.h"
 
 namespace gatelight::apps {
 
@@ -10,7 +10,7 @@ int read_only(int argc, const char* const* argv);
 
 /// Runs the whole program. Returns the exit code; throws nothing.
 int run(int argc, const char* const* argv);
-/// Runs the program as one of several ranks. All of them run the same command.
-int run(int argc, const char* const* argv, const RankGroup& group);
+/// Runs the program as one of a team. All of them run the same command.
+int run(int argc, const char* const* argv, RunTeam& team);
 
 }  // namespace gatelight::apps

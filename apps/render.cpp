@@ -3,7 +3,6 @@
 #include <memory>
 #include <new>
 
-#include "apps/ranks/frame_groups.h"
 #include "apps/render/render_run.h"
 #include "apps/settings/complete_settings.h"
 #include "apps/settings/flags.h"
@@ -32,18 +31,18 @@ Examples:
   gatelight render room.glb -o room.exr --preset standard --time-limit 10
   gatelight render room.glb -o room.exr --denoiser oidn --max-error 0.05)";
 
-int run_render(RenderSettings settings, const std::vector<std::string>& command, const RankGroup& group) {
+int run_render(RenderSettings settings, const std::vector<std::string>& command, RunTeam& team) {
   set_json_messages(settings.progress == ProgressMode::json);
   apply_display_defaults(settings);
   complete_settings(settings);
-  if (!group.writes()) settings.quiet = true;
+  if (!team.writes()) settings.quiet = true;
   check_inputs(settings);
-  if (group.writes()) check_outputs(settings);
-  set_log_level(settings.quiet, settings.verbose && group.writes());
+  if (team.writes()) check_outputs(settings);
+  set_log_level(settings.quiet, settings.verbose);
   install_signal_handlers();
   // Errors without a file name get the scene's name.
   try {
-    return render(settings, command, own_group(settings.frames.groups, group), group);
+    return render(settings, command, team);
   } catch (const TrainingDiverged& error) {
     throw TrainingDiverged(fmt::format("{}: {}", settings.scene, error.what()));
   } catch (const NumericalError& error) {
@@ -55,18 +54,17 @@ int run_render(RenderSettings settings, const std::vector<std::string>& command,
 
 }  // namespace
 
-Subcommand add_render_command(CLI::App& root, const std::vector<std::string>& command,
-                              const RankGroup& group) {
+Subcommand add_render_command(CLI::App& root, const std::vector<std::string>& command, RunTeam& team) {
   CLI::App* app = add_subcommand(root, "render", "Render a scene to EXR and PNG", kRenderFooter);
   const auto settings = std::make_shared<RenderSettings>();
   const std::vector<Option> options = option_table(*settings);
   add_flags(*app, options);
   return {app,
-          [app, settings, command, &group] {
+          [app, settings, command, &team] {
             finish_flags(*app, *settings);
-            return run_render(*settings, command, group);
+            return run_render(*settings, command, team);
           },
-          common_names(options), true};
+          common_names(options)};
 }
 
 }  // namespace gatelight::apps

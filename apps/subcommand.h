@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/ranks/rank_group.h"
+#include "apps/render/run_team.h"
 #include "apps/settings/option.h"
 
 namespace CLI {
@@ -19,11 +19,9 @@ struct Subcommand {
   CLI::App* app = nullptr;         ///< owned by the root
   std::function<int()> run;        ///< called after parsing; returns the exit code, or throws
   std::set<std::string> common{};  ///< flags of the short help, without their dashes; empty: all
-  bool of_ranks = false;           ///< several ranks may run it together
 };
 
-Subcommand add_render_command(CLI::App& root, const std::vector<std::string>& command,
-                              const RankGroup& group);
+Subcommand add_render_command(CLI::App& root, const std::vector<std::string>& command, RunTeam& team);
 Subcommand add_compare_command(CLI::App& root);
 Subcommand add_info_command(CLI::App& root);
 Subcommand add_merge_command(CLI::App& root);

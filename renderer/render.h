@@ -85,19 +85,16 @@ struct FrameStatus {
 FrameStatus read_frame_status(const std::filesystem::path& path);
 
 struct CacheReport;  // cache/cache_report.h
-class Ranks;         // distributed/ranks.h
 
 /// Owns the data that is built once for a scene (acceleration structure, lights, textures) and renders
 /// pictures from it.
 class Renderer {
  public:
   /// The scene must outlive the renderer. Throws OutOfMemory, Unavailable, BadOption, or, if the environment
-  /// cannot be read, InputError with the name of the file.
+  /// cannot be read, InputError with the name of the file. If several processes make one picture together,
+  /// each holds the scene, and all call the same functions with the same options; threads and memory limits
+  /// may differ.
   Renderer(const scene::Scene& scene, const RenderOptions& options);
-  /// For one of several processes that make one picture together. `ranks` must outlive the renderer. Each
-  /// process holds the scene, and all call the same functions with the same options; threads and memory
-  /// limits may differ.
-  Renderer(const scene::Scene& scene, const RenderOptions& options, Ranks& ranks);
   ~Renderer();
   Renderer(Renderer&&) noexcept;
 
@@ -111,9 +108,9 @@ class Renderer {
   /// nullopt, each view decides for itself, as in a new renderer.
   void keep_soft_sky(std::optional<bool> sky);
 
-  /// Changes the options of all later pictures, except the number of threads. Rebuilds only what the change
-  /// affects. Frames keep their cache, whose options must not change. Throws as the constructor does; in that
-  /// case, set valid options before using the renderer again.
+  /// Changes the options of all later pictures, except processes and the number of threads. Rebuilds only
+  /// what the change affects. Frames keep their cache, whose options must not change. Throws as the
+  /// constructor does; in that case, set valid options before using the renderer again.
   void set_options(const RenderOptions& options);
 
   // Frames of an animation: scene::SceneFile::show() changes the scene between these calls.
@@ -145,13 +142,13 @@ class Renderer {
   void write_frame(const std::filesystem::path& path, std::optional<float> exposure) const;
 
   /// Renders the picture. The same scene, options and Embree ISA give the same bits for any number of threads
-  /// and ranks, unless a time limit ends the render. With several ranks, rank 0 gets the picture and writes
-  /// the files, and the others get an empty picture; a stop request to one rank stops all.
+  /// and processes, unless a time limit ends the render. The first of several processes gets the picture and
+  /// writes the files, and the others get an empty picture; a stop request to one of them stops all.
   Picture render(const Callbacks& callbacks = {});
   /// Calls `picture` for each point, in order. The picture has the bits that render() gives with these steps
   /// or samples. Returns false if callbacks.stop ends the series early; `picture` is not called for the
   /// remaining points. Throws BadOption if the series is invalid, if the options contain a time limit,
-  /// max_error, checkpoints or cache_out, or with several ranks.
+  /// max_error, checkpoints or cache_out, or with several processes.
   bool render_series(const Series& series, const SeriesPicture& picture, const Callbacks& callbacks = {});
   /// Describes the cache that rendering would build. Scouts, but neither trains nor renders. Only for
   /// integrators with a cache.

@@ -9,22 +9,22 @@
 namespace gatelight::apps {
 
 FrameSequence::FrameSequence(const RenderSettings& settings, const scene::Scene& scene, ShowTime show_time,
-                             bool displayed, renderer::Ranks& ranks)
+                             bool displayed)
     : settings_(settings),
       show_time_(std::move(show_time)),
       needs_exposure_(displayed && !settings.exposure),
       sample_(sampled_frames(last_frame_of_animation(settings, scene))),
-      renderer_(build(scene, ranks)) {
+      renderer_(build(scene)) {
   shown_ = 0;
   choose_sky();
   move_to(0);
   if (!needs_exposure_) choose_integrator();
 }
 
-renderer::Renderer FrameSequence::build(const scene::Scene& scene, renderer::Ranks& ranks) {
+renderer::Renderer FrameSequence::build(const scene::Scene& scene) {
   show_time(0);
   const renderer::RenderOptions options = settings_of_frame(settings_, 0).render;
-  return {scene, needs_exposure_ ? measuring_options(options) : options, ranks};
+  return {scene, needs_exposure_ ? measuring_options(options) : options};
 }
 
 /// No sky where what glows shows the surfaces in one of the frames.

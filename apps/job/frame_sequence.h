@@ -18,10 +18,10 @@ class FrameSequence {
 
   /// Builds the renderer with frame 0, which decides what is chosen for the scene (the integrator) whichever
   /// frames are rendered, and chooses one soft sky for the whole animation. `displayed`: the frames are
-  /// shown, and need an exposure. `scene`, which `show_time` changes, and `ranks` must outlive it. Throws as
-  /// Renderer's constructor does.
-  FrameSequence(const RenderSettings& settings, const scene::Scene& scene, ShowTime show_time, bool displayed,
-                renderer::Ranks& ranks);
+  /// shown, and need an exposure. `scene`, which `show_time` changes, must outlive it. Throws as Renderer's
+  /// constructor does.
+  FrameSequence(const RenderSettings& settings, const scene::Scene& scene, ShowTime show_time,
+                bool displayed);
 
   /// Those of all frames, with what was chosen for them.
   const RenderSettings& settings() const { return settings_; }
@@ -44,7 +44,7 @@ class FrameSequence {
   void write(const std::string& file) const { renderer_.write_frame(file, settings_.exposure); }
 
  private:
-  renderer::Renderer build(const scene::Scene& scene, renderer::Ranks& ranks);
+  renderer::Renderer build(const scene::Scene& scene);
   void choose_sky();
   void choose_integrator();
   void show_time(int frame);

@@ -1,14 +1,11 @@
 // gatelight-mpi: gatelight with several ranks that make one picture.
 
-#include <fmt/format.h>
-
 #include <cstdlib>
 #include <exception>
-#include <string>
 
 #include "apps/command_line.h"
-#include "apps/mpi/mpi_ranks.h"
-#include "apps/ranks/rank_group.h"
+#include "apps/mpi/failures.h"
+#include "apps/mpi/mpi_team.h"
 #include "apps/terminal/errors.h"
 #include "apps/terminal/signals.h"
 #include "apps/terminal/terminal.h"
@@ -17,29 +14,6 @@
 
 namespace gatelight::apps {
 namespace {
-
-/// Separates message and advice: ranks send a failure as one text.
-constexpr char kSeparator = '\x1f';
-
-void print_fault(int code, const std::string& line) {
-  // A rank that prints in place of rank 0 was set silent.
-  set_silent(false);
-  const std::size_t at = line.find(kSeparator);
-  const std::string advice = at == std::string::npos ? "" : line.substr(at + 1);
-  print_failure_line({code, line.substr(0, at), advice});
-}
-
-RankCallbacks make_callbacks() {
-  return {.on_fault = print_fault,
-          .on_lost =
-              [](int rank, const std::string& host, double seconds) {
-                print_fault(kLost, fmt::format("rank {} ({}) has not answered for {:.0f} s; all ranks "
-                                               "end{}--resume continues from the last --checkpoint",
-                                               rank, host, seconds, kSeparator));
-              },
-          .on_stop = request_stop,
-          .lost_code = kLost};
-}
 
 /// Seconds after which a silent rank is lost.
 double silence() {
@@ -50,15 +24,16 @@ double silence() {
 }
 
 int run_ranks(int argc, char** argv) {
-  MpiRanks ranks(&argc, &argv, make_callbacks(), silence());
-  RankGroup group{ranks.all(), ranks.local_count(), ranks.hosts(),
-                  [&](int part) -> renderer::Ranks& { return ranks.split(part); },
-                  [&](int signal) { ranks.stop_others(signal); }};
-  set_silent(!group.ranks.first());
-  handle_failures([&](const Failure& failure) {
-    ranks.fail(failure.code, failure.message + kSeparator + failure.advice);
-  });
-  const int code = run(argc, argv, group);
+  MpiRanks ranks(&argc, &argv, silence());
+  int code = kDone;
+  if (ranks.all().is_single()) {
+    code = run(argc, argv);
+  } else {
+    set_silent(!ranks.all().first());
+    handle_failures([&](const Failure& failure) { ranks.fail(failure); });
+    MpiTeam team(ranks);
+    code = run(argc, argv, team);
+  }
   ranks.end();
   return code;
 }
@@ -76,9 +51,7 @@ int main(int argc, char** argv) {
   try {
     return apps::run_ranks(argc, argv);
   } catch (const std::exception& error) {
-    apps::set_silent(false);
-    apps::print_failure_line(
-        {apps::kUnavailable, error.what(), "start it with mpirun or srun, or use gatelight"});
+    apps::print_for_all({apps::kUnavailable, error.what(), "start it with mpirun or srun, or use gatelight"});
     return apps::kUnavailable;
   }
 }

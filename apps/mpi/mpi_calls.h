@@ -20,7 +20,6 @@ namespace gatelight::apps {
 // MPI's constants are macros with old casts.
 inline const MPI_Comm kWorld = MPI_COMM_WORLD;
 inline const MPI_Comm kNoComm = MPI_COMM_NULL;
-inline const MPI_Info kNoInfo = MPI_INFO_NULL;
 inline const MPI_Errhandler kReturnErrors = MPI_ERRORS_RETURN;
 inline const MPI_Datatype kByte = MPI_BYTE;
 inline const MPI_Datatype kUint64 = MPI_UINT64_T;

@@ -1,8 +1,9 @@
 #include "apps/mpi/mpi_world.h"
 
+#include <fmt/format.h>
+
 #include <array>
 
-#include "apps/ranks/rank_group.h"
 #include "base/errors.h"
 
 namespace gatelight::apps {
@@ -33,15 +34,6 @@ std::vector<std::string> host_names(MPI_Comm comm, int count) {
   return hosts;
 }
 
-int ranks_of_this_machine(int rank) {
-  MPI_Comm local = kNoComm;
-  int count = 1;
-  check(MPI_Comm_split_type(kWorld, MPI_COMM_TYPE_SHARED, rank, kNoInfo, &local), "MPI_Comm_split_type");
-  check(MPI_Comm_size(local, &count), "MPI_Comm_size");
-  check(MPI_Comm_free(&local), "MPI_Comm_free");
-  return count;
-}
-
 }  // namespace
 
 MpiWorld::MpiWorld(int* argc, char*** argv) {
@@ -56,8 +48,7 @@ MpiWorld::MpiWorld(int* argc, char*** argv) {
     check(MPI_Comm_set_errhandler(kWorld, kReturnErrors), "MPI_Comm_set_errhandler");
     check(MPI_Comm_rank(kWorld, &rank), "MPI_Comm_rank");
     check(MPI_Comm_size(kWorld, &count), "MPI_Comm_size");
-    local_count = ranks_of_this_machine(rank);
-    for (MPI_Comm* comm : {&data, &all_gathers, &messages}) {
+    for (MPI_Comm* comm : {&data, &exchanges, &messages}) {
       check(MPI_Comm_dup(kWorld, comm), "MPI_Comm_dup");
       check(MPI_Comm_set_errhandler(*comm, kReturnErrors), "MPI_Comm_set_errhandler");
     }
@@ -66,28 +57,31 @@ MpiWorld::MpiWorld(int* argc, char*** argv) {
 }
 
 MpiGroup MpiWorld::split(int group) const {
-  const std::lock_guard lock(mpi_mutex());
   MpiGroup part;
-  for (MPI_Comm* comm : {&part.data, &part.all_gathers}) {
-    check(MPI_Comm_split(kWorld, group, rank, comm), "MPI_Comm_split");
-    check(MPI_Comm_set_errhandler(*comm, kReturnErrors), "MPI_Comm_set_errhandler");
+  {
+    const std::lock_guard lock(mpi_mutex());
+    for (MPI_Comm* comm : {&part.data, &part.exchanges}) {
+      check(MPI_Comm_split(kWorld, group, rank, comm), "MPI_Comm_split");
+      check(MPI_Comm_set_errhandler(*comm, kReturnErrors), "MPI_Comm_set_errhandler");
+    }
+    check(MPI_Comm_rank(part.data, &part.rank), "MPI_Comm_rank");
+    check(MPI_Comm_size(part.data, &part.count), "MPI_Comm_size");
   }
-  check(MPI_Comm_rank(part.data, &part.rank), "MPI_Comm_rank");
-  check(MPI_Comm_size(part.data, &part.count), "MPI_Comm_size");
+  part.hosts = host_names(part.data, part.count);
   return part;
 }
 
 void MpiWorld::finalize(std::vector<MpiGroup> groups) {
   const std::lock_guard lock(mpi_mutex());
   for (MpiGroup& group : groups) {
-    for (MPI_Comm* comm : {&group.data, &group.all_gathers}) check(MPI_Comm_free(comm), "MPI_Comm_free");
+    for (MPI_Comm* comm : {&group.data, &group.exchanges}) check(MPI_Comm_free(comm), "MPI_Comm_free");
   }
-  for (MPI_Comm* comm : {&data, &all_gathers, &messages}) check(MPI_Comm_free(comm), "MPI_Comm_free");
+  for (MPI_Comm* comm : {&data, &exchanges, &messages}) check(MPI_Comm_free(comm), "MPI_Comm_free");
   check(MPI_Finalize(), "MPI_Finalize");
 }
 
-std::string name_of(const MpiWorld& world, int rank) {
-  return name_of_rank(rank, world.count, world.hosts[static_cast<std::size_t>(rank)]);
+std::string MpiGroup::name_of(int number) const {
+  return fmt::format("rank {} of {} ({})", number, count, hosts[static_cast<std::size_t>(number)]);
 }
 
 }  // namespace gatelight::apps

@@ -13,8 +13,12 @@ namespace gatelight::apps {
 struct MpiGroup {
   int rank = 0;
   int count = 1;
-  MPI_Comm data = kNoComm;  ///< exchanges and broadcasts
-  MPI_Comm all_gathers = kNoComm;
+  MPI_Comm data = kNoComm;  ///< broadcasts
+  MPI_Comm exchanges = kNoComm;
+  std::vector<std::string> hosts;  ///< of each rank
+
+  /// "rank 3 of 5 (host)"
+  std::string name_of(int number) const;
 };
 
 struct MpiWorld : MpiGroup {
@@ -27,12 +31,7 @@ struct MpiWorld : MpiGroup {
   /// waits for them without heartbeats.
   MpiGroup split(int group) const;
 
-  int local_count = 1;             ///< processes of this machine
-  std::vector<std::string> hosts;  ///< of each rank
-  MPI_Comm messages = kNoComm;     ///< heartbeats and errors
+  MPI_Comm messages = kNoComm;  ///< heartbeats and errors
 };
-
-/// "rank 3 of 5 (host)"
-std::string name_of(const MpiWorld& world, int rank);
 
 }  // namespace gatelight::apps

@@ -1,11 +1,16 @@
 #include "apps/mpi/progress_thread.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 #include <exception>
 #include <mutex>
 #include <optional>
 #include <utility>
+
+#include "apps/mpi/failures.h"
+#include "apps/terminal/signals.h"
 
 namespace gatelight::apps {
 namespace {
@@ -22,11 +27,9 @@ constexpr int kStopTag = 4;
 
 }  // namespace
 
-ProgressThread::ProgressThread(const MpiWorld& world, AllGathers& all_gathers, RankCallbacks callbacks,
-                               double silence_seconds)
+ProgressThread::ProgressThread(const MpiWorld& world, Exchanges& exchanges, double silence_seconds)
     : world_(world),
-      gatherings_{&all_gathers},
-      callbacks_(std::move(callbacks)),
+      exchanges_{&exchanges},
       mailbox_(world.messages),
       heartbeats_(world, mailbox_, silence_seconds),
       errors_(world.count),
@@ -42,13 +45,13 @@ void ProgressThread::stop_others(int signal) {
   }
 }
 
-void ProgressThread::fail(const RankError& fault) {
+void ProgressThread::fail(const Failure& fault) {
   {
     const std::lock_guard lock(mpi_mutex());
     if (world_.rank == 0) {
       errors_.add(0, fault);
     } else {
-      mailbox_.send(0, kFaultTag, packed(fault));
+      mailbox_.send(0, kFaultTag, bytes_of(json_of(fault)));
     }
   }
   const auto end = steady_clock::now() + kFirstAnswersWithin;
@@ -66,19 +69,20 @@ void ProgressThread::stop() {
   thread_.join();
 }
 
-void ProgressThread::abort(const RankError& fault) {
-  abort(fault.code,
-        [&] { callbacks_.on_fault(fault.code, name_of(world_, world_.rank) + ": " + fault.line); });
+/// The rank that has it is named.
+void ProgressThread::abort(Failure fault, int rank) {
+  fault.message.insert(0, world_.name_of(rank) + ": ");
+  end_all(fault);
 }
 
-void ProgressThread::abort(int code, const std::function<void()>& print) {
+void ProgressThread::end_all(const Failure& failure) {
   while (aborting_.test_and_set()) std::this_thread::sleep_for(std::chrono::seconds(1));
   try {
-    print();
+    print_for_all(failure);
   } catch (...) {
     // The ranks are to end, with or without a line.
   }
-  abort_all(code);
+  abort_all(failure.code);
 }
 
 void ProgressThread::run() {
@@ -86,14 +90,14 @@ void ProgressThread::run() {
     while (step()) {
       const bool busy = any_waiting() || [&] {
         const std::lock_guard lock(mpi_mutex());
-        const bool gathers = std::any_of(gatherings_.begin(), gatherings_.end(),
-                                         [](const AllGathers* one) { return !one->idle(); });
-        return gathers || mailbox_.sending_any();
+        const bool exchanging = std::any_of(exchanges_.begin(), exchanges_.end(),
+                                            [](const Exchanges* one) { return !one->idle(); });
+        return exchanging || mailbox_.sending_any();
       }();
       std::this_thread::sleep_for(busy ? kBusyPause : kIdlePause);
     }
   } catch (const std::exception& error) {
-    abort({.code = callbacks_.lost_code, .line = error.what()});
+    abort({kLost, error.what(), ""});
   }
 }
 
@@ -103,7 +107,7 @@ bool ProgressThread::step() {
   std::optional<ErrorConsensus::Verdict> verdict;
   {
     const std::lock_guard lock(mpi_mutex());
-    for (AllGathers* const one : gatherings_) one->advance();
+    for (Exchanges* const one : exchanges_) one->advance();
     while (const std::optional<Mailbox::Message> message = mailbox_.receive()) receive(*message);
     lost = heartbeats_.step();
     verdict = errors_.take_verdict();
@@ -111,9 +115,10 @@ bool ProgressThread::step() {
   }
   if (verdict) reach_consensus(*verdict);
   if (lost) {
-    abort(callbacks_.lost_code, [&] {
-      callbacks_.on_lost(lost->rank, world_.hosts[static_cast<std::size_t>(lost->rank)], lost->seconds);
-    });
+    end_all({kLost,
+             fmt::format("rank {} ({}) has not answered for {:.0f} s; all ranks end", lost->rank,
+                         world_.hosts[static_cast<std::size_t>(lost->rank)], lost->seconds),
+             "--resume goes on from the last --checkpoint"});
   }
   return true;
 }
@@ -124,13 +129,13 @@ void ProgressThread::receive(const Mailbox::Message& message) {
       heartbeats_.receive(message);
       break;
     case kFaultTag:
-      errors_.add(message.rank, unpacked(message.bytes));
+      errors_.add(message.rank, failure_of(object_of(message.bytes)));
       break;
     case kLeaveTag:
       may_leave_ = true;
       break;
     case kStopTag:
-      callbacks_.on_stop(renderer::Unpacker(message.bytes).read<int>());
+      request_stop(renderer::Unpacker(message.bytes).read<int>());
       break;
     default:
       break;
@@ -138,12 +143,8 @@ void ProgressThread::receive(const Mailbox::Message& message) {
 }
 
 void ProgressThread::reach_consensus(const ErrorConsensus::Verdict& verdict) {
-  const RankError& fault = verdict.fault;
-  if (!verdict.shared) {
-    abort(fault.code,
-          [&] { callbacks_.on_fault(fault.code, name_of(world_, verdict.rank) + ": " + fault.line); });
-  }
-  callbacks_.on_fault(fault.code, fault.line);
+  if (!verdict.shared) abort(verdict.fault, verdict.rank);
+  print_for_all(verdict.fault);
   const std::lock_guard lock(mpi_mutex());
   for (int rank = 1; rank < world_.count; ++rank) mailbox_.send(rank, kLeaveTag, {});
   may_leave_ = true;

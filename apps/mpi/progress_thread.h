@@ -1,16 +1,13 @@
 #pragma once
-// The thread that serves MPI while the other threads compute: it advances all-gathers, sends and receives
+// The thread that serves MPI while the other threads compute: it advances exchanges, sends and receives
 // heartbeats and errors, and ends all ranks where one is lost.
 
 #include <atomic>
-#include <functional>
-#include <string>
 #include <thread>
 #include <vector>
 
-#include "apps/mpi/all_gather.h"
-#include "apps/mpi/callbacks.h"
 #include "apps/mpi/error_consensus.h"
+#include "apps/mpi/exchanges.h"
 #include "apps/mpi/heartbeats.h"
 #include "apps/mpi/mailbox.h"
 #include "apps/mpi/mpi_world.h"
@@ -19,38 +16,37 @@ namespace gatelight::apps {
 
 class ProgressThread {
  public:
-  ProgressThread(const MpiWorld& world, AllGathers& all_gathers, RankCallbacks callbacks,
-                 double silence_seconds);
+  ProgressThread(const MpiWorld& world, Exchanges& exchanges, double silence_seconds);
   /// Call stop() before.
   ~ProgressThread() = default;
   ProgressThread(const ProgressThread&) = delete;
   ProgressThread& operator=(const ProgressThread&) = delete;
 
-  /// Advances these all-gathers too. The caller holds the mutex.
-  void serve(AllGathers& all_gathers) { gatherings_.push_back(&all_gathers); }
+  /// Advances these exchanges too. The caller holds the mutex.
+  void serve(Exchanges& exchanges) { exchanges_.push_back(&exchanges); }
 
   /// Asks all other ranks to stop, as if they had received this signal.
   void stop_others(int signal);
 
   /// Reports the error to rank 0. Returns where all ranks have the same error, else the program ends here.
-  void fail(const RankError& fault);
+  void fail(const Failure& fault);
 
   /// Returns when no rank needs this one any more. All ranks call it.
   void stop();
 
   /// Prints this rank's error, unless another thread is ending the program, and ends all ranks.
-  [[noreturn]] void abort(const RankError& fault);
+  [[noreturn]] void abort(const Failure& fault) { abort(fault, world_.rank); }
 
  private:
   void run();
   bool step();
   void receive(const Mailbox::Message& message);
   void reach_consensus(const ErrorConsensus::Verdict& verdict);
-  [[noreturn]] void abort(int code, const std::function<void()>& print);
+  [[noreturn]] void abort(Failure fault, int rank);
+  [[noreturn]] void end_all(const Failure& failure);
 
   const MpiWorld& world_;
-  std::vector<AllGathers*> gatherings_;
-  const RankCallbacks callbacks_;
+  std::vector<Exchanges*> exchanges_;
   Mailbox mailbox_;
   Heartbeats heartbeats_;
   ErrorConsensus errors_;

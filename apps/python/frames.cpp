@@ -9,7 +9,6 @@
 #include "apps/python/running.h"
 #include "base/clock.h"
 #include "base/errors.h"
-#include "renderer/distributed/ranks.h"
 
 namespace gatelight::python {
 
@@ -36,7 +35,7 @@ void Frames::begin(Unfinished unfinished, Waiting& waiting) {
     const std::lock_guard lock(scene_->file_mutex);
     scene_->file->show(shown_, seconds);
   };
-  sequence_ = std::make_unique<apps::FrameSequence>(settings_, shown_, show_time, true, renderer::one_rank());
+  sequence_ = std::make_unique<apps::FrameSequence>(settings_, shown_, show_time, true);
   if (sequence_->needs_exposure()) sequence_->measure_exposure(waiting.callbacks().stop);
   if (!waiting.stopped()) sequence_->begin();
 }

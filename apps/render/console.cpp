@@ -12,11 +12,10 @@
 
 namespace gatelight::apps {
 
-Console::Console(const RenderSettings& settings, bool speaks)
+Console::Console(const RenderSettings& settings)
     : progress(settings.quiet ? ProgressMode::none : settings.progress,
                static_cast<double>(count_pixels(settings.render))),
       quiet_(settings.quiet),
-      speaks_(speaks),
       json_(settings.progress == ProgressMode::json) {}
 
 void Console::warn(const std::string& text) {
@@ -31,7 +30,7 @@ void Console::warn(const std::vector<std::string>& texts) {
 }
 
 void Console::note(const char* about, const std::string& text) {
-  if (!speaks_ || quiet_) return;
+  if (quiet_) return;
   progress.clear();
   if (json_) {
     print_json_line({{"event", "note"}, {"about", about}, {"message", text}});

@@ -13,8 +13,7 @@ namespace gatelight::apps {
 
 class Console {
  public:
-  /// `speaks`: this process prints notes.
-  Console(const RenderSettings& settings, bool speaks);
+  explicit Console(const RenderSettings& settings);
 
   /// Prints what was not printed before, and adds it to the report of the picture.
   void warn(const std::string& text);
@@ -33,7 +32,7 @@ class Console {
   RunReport report;
 
  private:
-  bool quiet_, speaks_, json_;
+  bool quiet_, json_;
   std::set<std::string> printed_;
 };
 

@@ -10,7 +10,6 @@
 
 #include "apps/job/frame_sequence.h"
 #include "apps/job/frame_settings.h"
-#include "apps/ranks/frame_groups.h"
 #include "apps/reports/run_report.h"
 #include "apps/settings/camera_names.h"
 #include "apps/settings/complete_settings.h"
@@ -23,15 +22,6 @@
 
 namespace gatelight::apps {
 namespace {
-
-std::optional<Failure> described(const std::exception_ptr& error) {
-  if (!error) return {};
-  try {
-    std::rethrow_exception(error);
-  } catch (...) {
-    return describe_current_exception();
-  }
-}
 
 /// The frames of one camera.
 class FrameRun {
@@ -58,9 +48,7 @@ class FrameRun {
     const std::optional<int> done = begin(sequence, before);
     std::vector<int> frames(done ? std::find(all.begin(), all.end(), *done) + 1 : all.begin(), all.end());
     std::erase_if(frames, [&](int frame) { return existing.contains(frame); });
-    const int groups = settings_.frames.groups;
-    frames = frames_of_group(frames, groups, number_of_group(groups, call_.all.ranks));
-    return render(sequence, frames, groups > 1 ? all.size() : 0);
+    return render(sequence, call_.team.own_frames(frames), frames.size());
   }
 
   /// The first failure of a frame that was not reported.
@@ -72,7 +60,7 @@ class FrameRun {
     std::set<int> existing;
     if (!settings_.skip_existing) return existing;
     for (const int frame : frames) {
-      if (call_.all.agreed(are_there(settings_of_frame(settings_, frame).outputs))) existing.insert(frame);
+      if (call_.team.agreed(are_there(settings_of_frame(settings_, frame).outputs))) existing.insert(frame);
     }
     console_.note_skipped(existing.size(), frames.size());
     return existing;
@@ -94,7 +82,7 @@ class FrameRun {
   FrameSequence make_sequence() {
     FrameSequence sequence(
         settings_, scene_, [this](double seconds) { file_.show(scene_, seconds); },
-        shows_on_a_screen(settings_.outputs), call_.group.ranks);
+        shows_on_a_screen(settings_.outputs));
     if (sequence.needs_exposure()) {
       console_.progress.phase("exposure");
       sequence.measure_exposure([] { return stop_signal() != 0; });
@@ -141,8 +129,8 @@ class FrameRun {
     return last;
   }
 
-  /// `of_groups`: the number of frames of all groups; 0 without groups.
-  int render(FrameSequence& sequence, const std::vector<int>& frames, std::size_t of_groups) {
+  /// `count`: of the frames of all processes.
+  int render(FrameSequence& sequence, const std::vector<int>& frames, std::size_t count) {
     int number = 0;
     std::size_t i = 0;
     for (; i < frames.size(); ++i) {
@@ -155,14 +143,16 @@ class FrameRun {
       } catch (const DeviceLost&) {
         throw;
       } catch (const std::exception&) {
-        if (!call_.group.is_alone()) throw;  // the others wait for this one
+        if (!call_.team.is_alone()) throw;  // the others wait for this one
         note_failed_frame(frames[i]);
       }
       if (number != 0) break;
     }
-    if (of_groups > 0) return end_groups(number, i, of_groups, seconds_since(begin_));
-    if (number != 0) return note_stop(number, i, frames.size());
-    report(frames.size(), seconds_since(begin_));
+    const FrameResults all = call_.team.joined({number, i, console_.printed_warnings(), failure_});
+    if (all.signal != 0) return note_stop(all.signal, all.done, count);
+    for (const std::string& warning : all.warnings) console_.warn(warning);
+    report(count, seconds_since(begin_));
+    failure_ = all.failure;
     return kDone;
   }
 
@@ -174,12 +164,12 @@ class FrameRun {
     sequence.show(frame);
     console_.warn(scene_.warnings);
     console_.warn(sequence.renderer().statistics().warnings);
-    if (const int number = call_.group.signal(); number != 0) return number;
+    if (const int number = call_.team.signal(); number != 0) return number;
     renderer::Picture picture = sequence.render(frame, call_.maker.callbacks(sequence.renderer()));
     // An unfinished frame would look like a finished one.
-    if (const int number = call_.group.signal(); number != 0) return number;
+    if (const int number = call_.team.signal(); number != 0) return number;
     call_.maker.finish(std::move(picture), sequence.renderer().statistics());
-    if (!call_.group.writes()) return 0;
+    if (!call_.team.writes()) return 0;
     write_state(sequence, frame, last);
     const RunReport& report = console_.report;
     if (!console_.progress.frame_done(frame, summary_json(settings, report)) && !console_.quiet()) {
@@ -190,7 +180,7 @@ class FrameRun {
   }
 
   void make_folders(int frame) const {
-    if (!call_.group.writes()) return;
+    if (!call_.team.writes()) return;
     for (const std::string& output : settings_.outputs) make_folders_of_frame(output, frame);
     for (const std::string& file : {settings_.stats, settings_.render.cache.cache_out})
       make_folders_of_frame(file, frame);
@@ -216,33 +206,7 @@ class FrameRun {
                             settings_.render.checkpoint.file.empty() ? "" : ", --resume continues with it"));
   }
 
-  /// After the frames of each group: reports those of all. Returns the exit code.
-  int end_groups(int signal, std::size_t done, std::size_t count, double seconds) {
-    const RankGroup& all = call_.all;
-    if (signal != 0) all.stop_others(signal);
-    FrameResults mine;
-    // The ranks of a group have the same results, and the first of all has printed its warnings.
-    if (call_.group.writes()) {
-      mine = {.signal = signal, .done = done};
-      mine.failure = described(failure_);
-      const std::set<std::string>& printed = console_.printed_warnings();
-      if (!all.writes()) mine.warnings = {printed.begin(), printed.end()};
-    }
-    const FrameResults of_all = joined_results(all.ranks, mine);
-    if (of_all.signal != 0) return note_stop(of_all.signal, of_all.done, count);
-    if (all.writes()) {
-      console_.warn(of_all.warnings);
-      report(count, seconds);
-    }
-    all.wait_for_writer();  // what follows may end all ranks
-    failure_ = nullptr;     // it is reported here
-    if (!of_all.failure) return kDone;
-    print_failure(*of_all.failure);
-    return of_all.failure->code;
-  }
-
   void report(std::size_t count, double seconds) {
-    if (!call_.group.writes()) return;
     if (console_.progress.done({{"frames", count}, {"seconds", seconds}}) || console_.quiet()) return;
     print_status(frames_summary(count, seconds, console_.report));
   }
@@ -261,17 +225,15 @@ class FrameRun {
 
 int render_frames(const RenderSettings& settings, scene::SceneFile& file, scene::Scene& scene,
                   const RenderCall& call) {
-  int code = kDone;
   std::exception_ptr failure;
   for (const RenderSettings& of_camera : pictures_of(settings, scene)) {
     FrameRun run(of_camera, file, scene, call);
-    const int ended = run.run();
-    if (ended >= kSignalBase) return ended;
-    if (ended != kDone) code = ended;
+    if (const int signal_code = run.run(); signal_code != kDone) return signal_code;
     if (!failure) failure = run.failure();
   }
+  call.team.agreed(true);  // waits for the one that prints: what follows may end all
   if (failure) std::rethrow_exception(failure);
-  return code;
+  return kDone;
 }
 
 }  // namespace gatelight::apps

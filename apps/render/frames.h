@@ -1,6 +1,6 @@
 #pragma once
 // The frames of an animation in one call of `gatelight render`: for each camera that is asked for, one after
-// the other, or dealt to groups of ranks.
+// the other, or dealt to groups of processes.
 
 #include "apps/render/stills.h"
 #include "scene/gltf.h"

@@ -17,8 +17,8 @@
 
 namespace gatelight::apps {
 
-PictureMaker::PictureMaker(Console& console, const RankGroup& group, std::string bright_lights)
-    : console_(console), group_(group), bright_lights_(std::move(bright_lights)) {}
+PictureMaker::PictureMaker(Console& console, const RunTeam& team, std::string bright_lights)
+    : console_(console), team_(team), bright_lights_(std::move(bright_lights)) {}
 
 void PictureMaker::begin(const RenderSettings& settings, Clock::time_point start) {
   settings_ = settings;
@@ -40,10 +40,11 @@ renderer::Callbacks PictureMaker::callbacks(const renderer::Renderer& renderer) 
 int PictureMaker::finish(renderer::Picture picture, const renderer::RenderStatistics& statistics) {
   RunReport& report = console_.report;
   report.statistics = statistics;
-  report.signal = group_.signal();
+  report.signal = team_.signal();
+  team_.describe(report);
   console_.warn(warnings_of(statistics));
-  if (group_.writes()) write_results(std::move(picture));
-  group_.wait_for_writer();  // what follows may end all of the group
+  if (team_.writes()) write_results(std::move(picture));
+  team_.wait_for_writer();  // what follows may end all of them
   require_good_end(statistics, true);
   if (failed_output_) std::rethrow_exception(failed_output_);
   return report.signal == 0 ? kDone : kSignalBase + report.signal;

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "apps/ranks/rank_group.h"
 #include "apps/render/console.h"
+#include "apps/render/run_team.h"
 #include "apps/settings/render_settings.h"
 #include "base/clock.h"
 #include "renderer/render.h"
@@ -16,7 +16,7 @@ namespace gatelight::apps {
 class PictureMaker {
  public:
   /// `bright_lights`: lights_from_watts() of the scene.
-  PictureMaker(Console& console, const RankGroup& group, std::string bright_lights);
+  PictureMaker(Console& console, const RunTeam& team, std::string bright_lights);
 
   /// Begins the next picture. `start`: from where its seconds count.
   void begin(const RenderSettings& settings, Clock::time_point start = Clock::now());
@@ -34,7 +34,7 @@ class PictureMaker {
   void note_failed_output(const std::exception_ptr& error, bool again);
 
   Console& console_;
-  const RankGroup& group_;
+  const RunTeam& team_;
   const std::string bright_lights_;
   RenderSettings settings_;
   Clock::time_point start_;

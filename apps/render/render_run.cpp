@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "apps/ranks/rank_checks.h"
 #include "apps/render/frames.h"
 #include "apps/render/stills.h"
 #include "apps/reports/picture_warnings.h"
@@ -38,15 +37,13 @@ void note_loaded(Console& console, const RenderSettings& settings, const scene::
 
 }  // namespace
 
-int render(RenderSettings settings, const std::vector<std::string>& command, const RankGroup& group,
-           const RankGroup& all) {
+int render(RenderSettings settings, const std::vector<std::string>& command, RunTeam& team) {
   const Clock::time_point start = Clock::now();
-  share_machines(settings, all);
-  Console console(settings, all.writes());
+  team.join(settings);
+  Console console(settings);
   console.report.command = command;
-  console.report.hosts = group.hosts;
   // A scene may take long to load.
-  if (group.writes() && settings.render.denoise.denoiser == renderer::DenoiserKind::oidn)
+  if (team.writes() && settings.render.denoise.denoiser == renderer::DenoiserKind::oidn)
     renderer::load_oidn(settings.render.denoise.library);
   console.warn(unused_output_flags(settings));
   console.progress.phase("load");
@@ -55,15 +52,12 @@ int render(RenderSettings settings, const std::vector<std::string>& command, con
   scene::Scene scene = file.load();
   console.report.load_seconds = seconds_since(load_start);
   note_loaded(console, settings, scene);
-  if (const int number = group.signal(); number != 0)
+  if (const int number = team.signal(); number != 0)
     return note_signal_before_picture(console, number, settings.scene);
-  expect_equal_ranks(settings, scene, all);
-  const std::size_t memory = require_memory_of_ranks(settings, scene, all);
-  log_detail(fmt::format("memory needed{}, estimated: {}", all.is_alone() ? "" : " by each rank",
-                         format_bytes(memory)));
-  PictureMaker maker(console, group, lights_from_watts(scene));
-  return settings.frames.range ? render_frames(settings, file, scene, {console, maker, group, all})
-                               : render_stills(settings, scene, {console, maker, group, all}, start);
+  team.check(settings, scene);
+  PictureMaker maker(console, team, lights_from_watts(scene));
+  return settings.frames.range ? render_frames(settings, file, scene, {console, maker, team})
+                               : render_stills(settings, scene, {console, maker, team}, start);
 }
 
 }  // namespace gatelight::apps

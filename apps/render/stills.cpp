@@ -16,19 +16,19 @@ int note_signal_before_picture(Console& console, int signal, const std::string& 
 
 int render_stills(const RenderSettings& settings, const scene::Scene& scene, const RenderCall& call,
                   Clock::time_point start) {
-  const auto& [console, maker, group, all] = call;
+  const auto& [console, maker, team] = call;
   std::vector<RenderSettings> pictures = pictures_of(settings, scene);
   if (settings.skip_existing) {
     const std::size_t count = pictures.size();
-    std::erase_if(pictures, [&ranks = all](const RenderSettings& picture) {
-      return ranks.agreed(are_there(picture.outputs));
+    std::erase_if(pictures, [&team = team](const RenderSettings& picture) {
+      return team.agreed(are_there(picture.outputs));
     });
     console.note_skipped(count - pictures.size(), count);
     if (pictures.empty()) return kDone;
   }
   console.progress.phase("build");
   const std::size_t warnings_of_loading = console.report.warnings.size();
-  renderer::Renderer renderer(scene, pictures.front().render, group.ranks);
+  renderer::Renderer renderer(scene, pictures.front().render);
   int code = kDone;
   for (std::size_t i = 0; i < pictures.size() && code == kDone; ++i) {
     RenderSettings& picture = pictures[i];
@@ -40,7 +40,7 @@ int render_stills(const RenderSettings& settings, const scene::Scene& scene, con
     if (picture.render.choose_integrator) renderer::use_integrator(picture.render, renderer.integrator());
     maker.begin(picture, start);
     console.warn(renderer.statistics().warnings);
-    if (const int number = group.signal(); number != 0)
+    if (const int number = team.signal(); number != 0)
       return note_signal_before_picture(console, number, picture.scene);
     renderer::Picture made = renderer.render(maker.callbacks(renderer));
     code = maker.finish(std::move(made), renderer.statistics());

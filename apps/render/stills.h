@@ -9,8 +9,7 @@ namespace gatelight::apps {
 struct RenderCall {
   Console& console;
   PictureMaker& maker;
-  const RankGroup& group;  ///< the ranks that make pictures together
-  const RankGroup& all;
+  const RunTeam& team;
 };
 
 /// Says that a signal came before the first pass. Returns the exit code.

@@ -1,7 +1,7 @@
 #pragma once
 // The report of a run as text and as JSON.
 
-#include <nlohmann/json_fwd.hpp>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -12,14 +12,15 @@ namespace gatelight::apps {
 
 struct RunReport {
   std::vector<std::string> command;
-  std::vector<std::string> hosts;  ///< of the ranks, where there are several
   renderer::RenderStatistics statistics;
   double load_seconds = 0.0;
   double write_seconds = 0.0;
   double total_seconds = 0.0;
   float exposure = 0.0f;  ///< of the PNG files, in stops
   std::vector<std::string> warnings;
-  int signal = 0;  ///< signal that stopped the run; 0: none
+  int signal = 0;            ///< signal that stopped the run; 0: none
+  std::string team_summary;  ///< a line about the processes, where there are several
+  nlohmann::ordered_json team_json = nlohmann::ordered_json::object();  ///< for the statistics file
 };
 
 /// Largest resident memory of this process so far, in bytes.

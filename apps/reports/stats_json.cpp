@@ -45,22 +45,6 @@ ordered_json seconds(const RunReport& report, bool with_cache) {
   return json;
 }
 
-ordered_json ranks(const RunReport& report) {
-  ordered_json all = ordered_json::array();
-  for (std::size_t r = 0; r < report.statistics.ranks.size(); ++r) {
-    const renderer::RankStatistics& rank = report.statistics.ranks[r];
-    all.push_back({{"host", report.hosts[r]},
-                   {"threads", rank.threads},
-                   {"samples", rank.samples},
-                   {"training_paths", rank.training_paths},
-                   {"record_bytes", rank.record_bytes},
-                   {"seconds", rank.seconds},
-                   {"bytes_sent", rank.bytes_sent},
-                   {"waiting_seconds", rank.waiting_seconds}});
-  }
-  return all;
-}
-
 }  // namespace
 
 std::size_t peak_resident_bytes() {
@@ -81,7 +65,7 @@ std::string stats_json(const RenderSettings& settings, const RunReport& report) 
   json["outputs"] = settings.outputs;
   json["isa"] = s.isa;
   json["threads"] = s.threads;
-  if (!s.ranks.empty()) json["ranks"] = ranks(report);
+  json.update(report.team_json);
   json["device"] = with_cache ? settings.render.cache.device : "cpu";
   json["width"] = s.width;
   json["height"] = s.height;

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
-#include <set>
 
 #include "apps/reports/cache_statistics.h"
 #include "apps/reports/run_report.h"
@@ -49,25 +48,6 @@ double ray_seconds(const renderer::RenderStatistics& s) {
 std::string render_seconds_text(const renderer::RenderStatistics& s) {
   if (s.resumed_seconds <= 0.0) return fmt::format("render {:.2f}", s.render_seconds);
   return fmt::format("render {:.2f} ({:.2f} of them before --resume)", s.render_seconds, s.resumed_seconds);
-}
-
-/// "ranks     5 with 10 threads on 2 machines; waiting 3.1 %, sent 12 MiB\n"; empty for a single process.
-std::string ranks_text(const RunReport& report) {
-  const std::vector<renderer::RankStatistics>& ranks = report.statistics.ranks;
-  if (ranks.empty()) return "";
-  int threads = 0;
-  double seconds = 0.0, waiting = 0.0;
-  std::size_t bytes = 0;
-  for (const renderer::RankStatistics& rank : ranks) {
-    threads += rank.threads;
-    seconds += rank.seconds;
-    waiting += rank.waiting_seconds;
-    bytes += rank.bytes_sent;
-  }
-  const std::size_t machines = std::set<std::string>(report.hosts.begin(), report.hosts.end()).size();
-  return fmt::format("ranks     {} with {} threads on {} machine{}; waiting {}, sent {}\n", ranks.size(),
-                     threads, machines, machines == 1 ? "" : "s",
-                     format_percent(waiting / std::max(seconds, 1e-9)), format_bytes(bytes));
 }
 
 }  // namespace
@@ -130,7 +110,7 @@ std::string summary(const RenderSettings& settings, const RunReport& report) {
         renderer::uses_cache(settings.render.integrator) ? "renders without a cache" : "uses a cache");
   }
   if (!s.denoiser.empty()) text += fmt::format("denoiser  {}\n", s.denoiser);
-  text += ranks_text(report);
+  text += report.team_summary;
   if (!settings.exposure) {
     text +=
         fmt::format("exposure  {:.1f} EV, from the picture's brightness; --exposure {:.1f} sets the same\n",

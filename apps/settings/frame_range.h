@@ -38,7 +38,7 @@ struct FrameSettings {
   double fps = 24.0;  ///< frame n shows the time n / fps, with a shutter that of its middle
   int turntable = 0;  ///< frames of a whole turn of the camera; 0: it stays
   ShutterRange shutter;
-  int groups = 1;  ///< of ranks, each of which renders frames of its own
+  int groups = 1;  ///< of processes, each of which renders frames of its own
 
   bool any() const { return range || turntable > 0; }
   double seconds(double frame) const { return (frame + shutter.middle()) / fps; }

@@ -34,7 +34,7 @@ std::string text_of(const OptionValue& value);
 enum class InRecipe : std::uint8_t {
   always,
   unless_reproducible,
-  of_machine,  ///< unless reproducible; ranks that make one picture may differ in it
+  of_machine,  ///< unless reproducible; processes that make one picture may differ in it
   never,
 };
 

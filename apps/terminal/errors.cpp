@@ -81,6 +81,8 @@ Failure describe_current_exception() {
     throw;
   } catch (const Error& error) {
     return failure_of(error);
+  } catch (const Failure& failure) {
+    return failure;
   } catch (const std::bad_alloc&) {
     return {kMemory, "out of memory", "use a smaller picture or scene, or a machine with more memory"};
   } catch (const std::system_error& error) {

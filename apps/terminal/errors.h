@@ -19,7 +19,7 @@ enum ExitCode : int {
   kNumerical = 6,
   kPartly = 7,        ///< some cells of a sweep failed, the others are there
   kNoAdvice = 8,      ///< nothing in a sweep meets the limits of --advise
-  kLost = 9,          ///< another rank of a run on several machines does not answer
+  kLost = 9,          ///< another process of a run on several machines does not answer
   kSignalBase = 128,  ///< plus the signal's number
 };
 
@@ -27,9 +27,10 @@ struct Failure {
   int code = kUsage;
   std::string message;  ///< what failed and on which file
   std::string advice;   ///< what to do
+  bool operator==(const Failure&) const = default;
 };
 
-/// Describes the exception that is being handled. Call it in a catch block.
+/// Describes the exception that is being handled, which may be a Failure. Call it in a catch block.
 Failure describe_current_exception();
 
 /// For std::set_terminate: a failure that could not be caught, such as a thread that cannot be started, also
@@ -42,8 +43,8 @@ void print_failure_line(const Failure& failure);
 /// Gives the failure to the handler; without one, prints the last line of stderr.
 void print_failure(const Failure& failure);
 
-/// Sets the handler: where several ranks run one command, one of them prints. Without a handler this process
-/// prints its failures itself.
+/// Sets the handler: where several processes run one command, one of them prints. Without a handler this
+/// process prints its failures itself.
 void handle_failures(std::function<void(const Failure&)> handler);
 
 /// Prints the last line of stderr after a signal, which is no failure. The code is the program's.

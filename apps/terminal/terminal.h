@@ -9,7 +9,7 @@ namespace gatelight::apps {
 
 int terminal_columns();
 
-/// silent: from now on nothing is written to stderr and stdout, because another rank prints.
+/// silent: from now on nothing is written to stderr and stdout, because another process prints.
 void set_silent(bool silent);
 
 /// Writes to stderr. Write errors (a full disk, a pipe without a reader) are ignored.

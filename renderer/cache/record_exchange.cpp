@@ -16,10 +16,10 @@ auto parts_of(Batch& batch, std::size_t sample) {
   return std::span(batch.parts).subspan(sample * count, count);
 }
 
-/// Work of the slowest rank after which the shares of the ranks are adjusted.
+/// Work of the slowest process after which the shares are adjusted.
 constexpr double kRebalanceSeconds = 0.5;
 
-Bytes pack_records(const RecordBatch& batch, const RankTiles& ranks, const RankWork& work) {
+Bytes pack_records(const RecordBatch& batch, const SharedTiles& all, const RankWork& work) {
   Packer packer;
   packer.add(work);
   for (std::size_t b = 0; b < batch.paths.size(); ++b) {
@@ -34,7 +34,7 @@ Bytes pack_records(const RecordBatch& batch, const RankTiles& ranks, const RankW
   for (std::size_t b = 0; b < batch.paths.size(); ++b) {
     if (!batch.mine(b)) continue;
     for (std::size_t i = batch.starts.offsets[b]; i < batch.starts.offsets[b + 1]; ++i) {
-      if (ranks.owns(batch.starts.samples[i].pixel)) continue;
+      if (all.owns(batch.starts.samples[i].pixel)) continue;
       packer.add(static_cast<std::uint64_t>(i));
       packer.add(batch.radiance[i]);
       if (!batch.traced.empty()) packer.add(batch.traced[i]);
@@ -45,20 +45,20 @@ Bytes pack_records(const RecordBatch& batch, const RankTiles& ranks, const RankW
   return packer.take();
 }
 
-/// Returns the work of each rank.
-std::vector<RankWork> unpack_records(const std::vector<Bytes>& all, const RankTiles& ranks,
+/// Returns the work of each process.
+std::vector<RankWork> unpack_records(const std::vector<Bytes>& records, const SharedTiles& all,
                                      RecordBatch& batch) {
   std::vector<RankWork> work;
-  for (std::size_t r = 0; r < all.size(); ++r) {
-    Unpacker unpacker(all[r]);
+  for (std::size_t r = 0; r < records.size(); ++r) {
+    Unpacker unpacker(records[r]);
     work.push_back(unpacker.read<RankWork>());
-    if (static_cast<int>(r) == ranks.ranks.rank()) continue;
+    if (static_cast<int>(r) == all.ranks.rank()) continue;
     for (std::size_t b = 0; b < batch.paths.size(); ++b) {
       if (batch.tracers[b] != static_cast<int>(r)) continue;
       PathBatch& paths = batch.paths[b];
-      const auto records = unpacker.read<std::uint32_t>();
+      const auto count = unpacker.read<std::uint32_t>();
       paths.targets.resize(unpacker.read<std::uint32_t>());
-      paths.records.unpack(unpacker, records);
+      paths.records.unpack(unpacker, count);
       unpacker.read_all(std::span(paths.targets));
     }
     while (!unpacker.done()) {
@@ -68,7 +68,7 @@ std::vector<RankWork> unpack_records(const std::vector<Bytes>& all, const RankTi
       const auto first = unpacker.read<FirstHit>();
       std::vector<Color> parts(parts_of(batch, i).size());
       unpacker.read_all(std::span(parts));
-      if (!ranks.owns(batch.starts.samples[i].pixel)) continue;
+      if (!all.owns(batch.starts.samples[i].pixel)) continue;
       batch.radiance[i] = radiance;
       if (!batch.traced.empty()) batch.traced[i] = traced;
       batch.first_hits[i] = first;
@@ -85,21 +85,21 @@ void RecordExchange::choose_blocks(RecordBatch& batch) const {
   const TrainingStarts& starts = batch.starts;
   const std::size_t blocks = starts.blocks();
   batch.tracers.clear();
-  batch.self = ranks_->ranks.rank();
-  const std::int64_t tiles = ranks_->tiles.count();
+  batch.self = all_->ranks.rank();
+  const std::int64_t tiles = all_->tiles.count();
   for (std::size_t b = 0; b < blocks; ++b) {
     batch.tracers.push_back(starts.samples.empty()
-                                ? ranks_->shares.owner(static_cast<int>(static_cast<std::int64_t>(b) * tiles /
-                                                                        static_cast<std::int64_t>(blocks)))
-                                : ranks_->owner(starts.samples[starts.offsets[b]].pixel));
+                                ? all_->shares.owner(static_cast<int>(static_cast<std::int64_t>(b) * tiles /
+                                                                      static_cast<std::int64_t>(blocks)))
+                                : all_->owner(starts.samples[starts.offsets[b]].pixel));
   }
 }
 
 RecordExchange::Coming RecordExchange::send(const RecordBatch& batch, const RankWork& work) {
   if (is_alone()) return nullptr;
-  Bytes packed = pack_records(batch, *ranks_, work);
+  Bytes packed = pack_records(batch, *all_, work);
   share.bytes += packed.size();
-  return ranks_->ranks.begin_gather(std::move(packed));
+  return all_->ranks.begin_gather(std::move(packed));
 }
 
 void RecordExchange::receive(Coming coming, RecordBatch& batch) {
@@ -108,7 +108,7 @@ void RecordExchange::receive(Coming coming, RecordBatch& batch) {
   for (std::size_t b = 0; b < starts.blocks(); ++b) {
     if (batch.mine(b)) share.paths += starts.offsets[b + 1] - starts.offsets[b];
   }
-  const std::vector<RankWork> work = unpack_records(coming->wait(), *ranks_, batch);
+  const std::vector<RankWork> work = unpack_records(coming->wait(), *all_, batch);
   work_.resize(work.size());
   for (std::size_t r = 0; r < work.size(); ++r) {
     work_[r].seconds += work[r].seconds;

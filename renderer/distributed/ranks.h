@@ -1,6 +1,6 @@
 #pragma once
 // The interface of a process to the others that make one picture with it. An application implements it, for
-// example with MPI.
+// example with MPI; without that there is one process.
 
 #include <cstddef>
 #include <cstdint>
@@ -13,6 +13,11 @@
 
 namespace gatelight::renderer {
 
+struct Traffic {
+  std::uint64_t bytes_sent = 0;
+  double waiting_seconds = 0.0;  ///< in the functions of Ranks
+};
+
 /// All ranks call the same functions in the same order. They run the same program on machines of the same
 /// kind, so values are sent as they are in memory. The functions are called by one thread at a time. They
 /// throw where the connection fails.
@@ -20,28 +25,30 @@ class Ranks {
  public:
   virtual ~Ranks() = default;
 
-  virtual int rank() const = 0;   ///< from 0
-  virtual int count() const = 0;  ///< at least 1
+  virtual int rank() const { return 0; }   ///< from 0
+  virtual int count() const { return 1; }  ///< at least 1
   bool first() const { return rank() == 0; }
   bool is_single() const { return count() == 1; }
 
-  /// Gives outgoing[r] to rank r. Returns what each rank gave to this one, in the order of ranks.
-  virtual std::vector<Bytes> exchange(std::vector<Bytes> outgoing) = 0;
-
-  /// Replaces `bytes` by those of rank 0.
-  virtual void broadcast(Bytes& bytes) = 0;
-
-  /// An all-gather in progress.
-  class AllGather {
+  /// Bytes on their way.
+  class Exchange {
    public:
-    virtual ~AllGather() = default;
-    /// Waits for it to finish. Returns the bytes in the order of ranks. Call it once.
+    virtual ~Exchange() = default;
+    /// Waits for them. Returns what each rank gave to this one, in the order of ranks. Call it once.
     virtual std::vector<Bytes> wait() = 0;
   };
-  /// Gives `mine` to all ranks. The caller may go on with its work and call the other functions until it
-  /// waits for the result; one all-gather at a time.
-  virtual std::unique_ptr<AllGather> begin_gather(Bytes mine) = 0;
+  /// Gives outgoing[r] to rank r, or the only entry to all ranks. The caller may go on with its work and call
+  /// the other functions until it waits for the result.
+  virtual std::unique_ptr<Exchange> begin_exchange(std::vector<Bytes> outgoing);
+  std::vector<Bytes> exchange(std::vector<Bytes> outgoing) {
+    return begin_exchange(std::move(outgoing))->wait();
+  }
+  /// Gives `mine` to all ranks.
+  std::unique_ptr<Exchange> begin_gather(Bytes mine);
   std::vector<Bytes> gather(Bytes mine) { return begin_gather(std::move(mine))->wait(); }
+
+  /// Replaces `bytes` by those of rank 0.
+  virtual void broadcast(Bytes&) {}
 
   // The same for values, which are numbers or structs of numbers without pointers.
 
@@ -81,25 +88,10 @@ class Ranks {
     return all;
   }
 
-  struct Traffic {
-    std::uint64_t bytes_sent = 0;
-    double waiting_seconds = 0.0;  ///< in the functions of this class
-  };
-  virtual Traffic traffic() const = 0;
+  virtual Traffic traffic() const { return {}; }
 };
 
-/// A single process.
-class OneRank final : public Ranks {
- public:
-  int rank() const override { return 0; }
-  int count() const override { return 1; }
-  std::vector<Bytes> exchange(std::vector<Bytes> outgoing) override { return outgoing; }
-  void broadcast(Bytes&) override {}
-  std::unique_ptr<AllGather> begin_gather(Bytes mine) override;
-  Traffic traffic() const override { return {}; }
-};
-
-/// For renderers without ranks.
-Ranks& one_rank();
+/// These, or a single process where there are none.
+Ranks& ranks_or_one(Ranks* ranks);
 
 }  // namespace gatelight::renderer

@@ -2,26 +2,16 @@
 // A file of rank 0 that the others read too.
 
 #include <filesystem>
+#include <memory>
 
 #include "renderer/distributed/ranks.h"
 
 namespace gatelight::renderer {
 
 /// A file that may lie in memory, as long as this object lives.
-class SharedFile {
- public:
-  SharedFile() = default;
-  SharedFile(SharedFile&& other) noexcept;
-  SharedFile& operator=(SharedFile&& other) noexcept;
-  ~SharedFile();
-
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  friend SharedFile share_file(Ranks& ranks, const std::filesystem::path& path);
-
-  std::filesystem::path path_;
-  int descriptor_ = -1;
+struct SharedFile {
+  std::filesystem::path path;
+  std::shared_ptr<void> memory;
 };
 
 /// All ranks call it; only rank 0 needs to have the file. Throws std::system_error where it cannot be read,

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "base/errors.h"
+#include "renderer/distributed/ranks.h"
 
 namespace gatelight::renderer {
 namespace {
@@ -19,10 +20,11 @@ ChosenDenoiser load_denoiser(const DenoiseOptions& options) {
 
 }  // namespace
 
-ChosenDenoiser choose_denoiser(const DenoiseOptions& options, Ranks& ranks) {
-  if (options.denoiser == DenoiserKind::none) return {};
+ChosenDenoiser choose_denoiser(const RenderOptions& options) {
+  if (options.denoise.denoiser == DenoiserKind::none) return {};
+  Ranks& ranks = ranks_or_one(options.ranks);
   ChosenDenoiser chosen;
-  if (ranks.first()) chosen = load_denoiser(options);
+  if (ranks.first()) chosen = load_denoiser(options.denoise);
   chosen.found = ranks.agreed(chosen.found);
   return chosen;
 }

@@ -4,20 +4,19 @@
 #include <string>
 
 #include "renderer/denoise/oidn_library.h"
-#include "renderer/distributed/ranks.h"
 #include "renderer/settings/options.h"
 
 namespace gatelight::renderer {
 
 struct ChosenDenoiser {
   bool found = false;
-  const OidnLibrary* library = nullptr;  ///< null: none, or another rank denoises
+  const OidnLibrary* library = nullptr;  ///< null: none, or another process denoises
   std::string missing;                   ///< why DenoiserKind::automatic found none; else empty
 };
 
-/// The first rank finishes pictures, so only it needs a library. Throws MissingDenoiser there where
-/// DenoiserKind::oidn finds none.
-ChosenDenoiser choose_denoiser(const DenoiseOptions& options, Ranks& ranks);
+/// Of several processes only the first one, which finishes pictures, needs a library. Throws MissingDenoiser
+/// there where DenoiserKind::oidn finds none.
+ChosenDenoiser choose_denoiser(const RenderOptions& options);
 
 /// The options with the choice in place of DenoiserKind::automatic. Without a denoiser, or with less samples
 /// than a pixel has parts, there is no supersampling.

@@ -55,7 +55,7 @@ PictureCheckpoint::PictureCheckpoint(const RenderContext& context, Film& film, R
   check_output(context, options_.file);
   if (!options_.resume || !team.agreed(team.finishes() && std::filesystem::exists(options_.file))) return;
   shared_ = team.shared(options_.file);
-  found_.emplace(shared_.path());
+  found_.emplace(shared_.path);
   found_->expect(*identity_, context.picture.options.spp);
   found_->restore(film, earlier);
 }

@@ -29,14 +29,14 @@ RenderStatistics PictureStatistics::sum_up(const Film& film, const Training* tra
   sum.nonfinite = counts.nonfinite;
   sum.clamped = counts.clamped;
   sum.nonfinite_samples = std::move(counts.located);
-  add_other_ranks(sum, training ? &training->session() : nullptr);
+  add_others(sum, training ? &training->session() : nullptr);
   add_earlier(sum, earlier);
   sum.resumed_seconds = earlier.render_seconds;
   return sum;
 }
 
-/// Sums up the counts of all ranks, and keeps those of each rank.
-void PictureStatistics::add_other_ranks(RenderStatistics& sum, const CacheSession* session) const {
+/// Sums up the counts of all processes, and keeps those of each.
+void PictureStatistics::add_others(RenderStatistics& sum, const CacheSession* session) const {
   const PictureTeam& team = context_.team;
   if (team.is_alone()) return;
   constexpr std::size_t kCounted = 6;
@@ -47,12 +47,12 @@ void PictureStatistics::add_other_ranks(RenderStatistics& sum, const CacheSessio
                                                         &sum.cache.negative_answers,
                                                         &sum.cache.unstored_hits};
   struct Counts {
-    RankStatistics of_rank;
+    RankStatistics own;
     RayCounts rays;
     std::array<std::uint64_t, kCounted> numbers{};
   };
   const auto share = session ? session->exchange().share : RecordExchange::Share{};
-  const Ranks::Traffic traffic = team.traffic();
+  const Traffic traffic = team.traffic();
   Counts mine{{.threads = sum.threads,
                .samples = sum.samples,
                .training_paths = share.paths,
@@ -65,8 +65,8 @@ void PictureStatistics::add_other_ranks(RenderStatistics& sum, const CacheSessio
   sum.threads = 0;
   sum.rays = {};
   for (const Counts& counts : team.of_each(mine)) {
-    sum.ranks.push_back(counts.of_rank);
-    sum.threads += counts.of_rank.threads;
+    sum.team.push_back(counts.own);
+    sum.threads += counts.own.threads;
     sum.rays.add(counts.rays);
     for (std::size_t i = 0; i < kCounted; ++i) *counted[i] += counts.numbers[i];
   }

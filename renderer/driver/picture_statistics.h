@@ -13,7 +13,7 @@ class PictureStatistics {
  public:
   explicit PictureStatistics(const RenderContext& context);
 
-  /// Statistics of this run and of the earlier ones, of all ranks, which all call it. `training`: null
+  /// Statistics of this run and of the earlier ones, of all processes, which all call it. `training`: null
   /// without a cache. `loop`: null before the first pass.
   RenderStatistics sum_up(const Film& film, const Training* training, const SampleLoop* loop) const;
 
@@ -22,10 +22,10 @@ class PictureStatistics {
   double cryptomatte_seconds = 0.0;
 
  private:
-  void add_other_ranks(RenderStatistics& sum, const CacheSession* session) const;
+  void add_others(RenderStatistics& sum, const CacheSession* session) const;
 
   RenderContext context_;
-  Ranks::Traffic traffic_before_;
+  Traffic traffic_before_;
 };
 
 }  // namespace gatelight::renderer

@@ -105,21 +105,20 @@ std::string made_view(const scene::Scene& scene, const CameraOptions& options, c
 
 }  // namespace
 
-PreparedPicture::PreparedPicture(const scene::Scene& scene_in, const RenderOptions& options_in,
-                                 const ChosenDenoiser& denoiser_in)
+PreparedPicture::PreparedPicture(const scene::Scene& scene_in, const RenderOptions& options_in)
     : scene(scene_in),
       threads(options_in.threads > 0 ? options_in.threads : available_threads()),
       control(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads)),
       arena(threads) {
-  set_options(options_in, denoiser_in);
+  set_options(options_in);
 }
 
-void PreparedPicture::set_options(const RenderOptions& chosen, const ChosenDenoiser& denoiser_in) {
+void PreparedPicture::set_options(const RenderOptions& chosen) {
   const FlushDenormals flush;  // also on the arena's threads, which begin here
   if (chosen.threads > 0 && chosen.threads != threads)
     throw BadOption(
         {"threads", fmt::format("{}", chosen.threads), "", fmt::format("{}, as before", threads)});
-  choose_options(chosen, denoiser_in);
+  choose_options(chosen);
   require_threads(threads);
   if (chosen_denoiser.library && !denoiser)
     denoiser = std::make_unique<Denoiser>(*chosen_denoiser.library, threads,
@@ -138,9 +137,10 @@ void PreparedPicture::set_options(const RenderOptions& chosen, const ChosenDenoi
   describe();
 }
 
-void PreparedPicture::choose_options(const RenderOptions& chosen, const ChosenDenoiser& denoiser_in) {
-  if (chosen_denoiser.library != denoiser_in.library) denoiser.reset();
-  chosen_denoiser = denoiser_in;
+void PreparedPicture::choose_options(const RenderOptions& chosen) {
+  const OidnLibrary* const library = chosen_denoiser.library;
+  chosen_denoiser = choose_denoiser(chosen);
+  if (chosen_denoiser.library != library) denoiser.reset();
   RenderOptions next = with_denoiser(checked(chosen), chosen_denoiser);
   asks_for_sky = may_need_sky(scene, next);
   next.environment.automatic = next.environment.automatic && !next.environment.sky &&

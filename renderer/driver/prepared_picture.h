@@ -25,13 +25,12 @@ namespace gatelight::renderer {
 
 /// Constant while a picture is made.
 struct PreparedPicture {
-  /// `denoiser_in`: of these options. Throws the exceptions of Renderer's constructor.
-  PreparedPicture(const scene::Scene& scene_in, const RenderOptions& options_in,
-                  const ChosenDenoiser& denoiser_in);
+  /// Throws the exceptions of Renderer's constructor.
+  PreparedPicture(const scene::Scene& scene_in, const RenderOptions& options_in);
 
   /// The pictures from now on have other options. Builds only the parts of the world that depend on what has
   /// changed. Throws the exceptions of the constructor; call it again then, with options that it takes.
-  void set_options(const RenderOptions& chosen, const ChosenDenoiser& denoiser_in);
+  void set_options(const RenderOptions& chosen);
   /// Changes the view, and the warnings about it. Builds the lights again where the soft sky comes or goes.
   void set_camera(const CameraOptions& chosen);
   /// The scene shows another time.
@@ -76,7 +75,7 @@ struct PreparedPicture {
   RenderStatistics statistics;   ///< of building, with its warnings
 
  private:
-  void choose_options(const RenderOptions& chosen, const ChosenDenoiser& denoiser_in);
+  void choose_options(const RenderOptions& chosen);
   void build_world(const WorldOptions& wanted);
   /// Whether the view decides about the soft sky.
   bool judges_view() const;

@@ -131,7 +131,7 @@ bool render_series(const RenderContext& context, const Series& series, const Ser
                    RenderStatistics& statistics) {
   const RenderOptions& options = context.picture.options;
   check_series(series, options);
-  if (!context.team.is_alone()) throw BadOption("a series with several ranks: expected one");
+  if (!context.team.is_alone()) throw BadOption("a series by several processes: expected one");
   SeriesRun run(context, picture, statistics);
   return uses_cache(options.integrator) ? run.render_steps(series.train_steps)
                                         : run.render_samples(series.spp);

@@ -13,23 +13,19 @@
 namespace gatelight::renderer {
 
 struct Renderer::Implementation {
-  Implementation(const scene::Scene& scene, const RenderOptions& options, Ranks& ranks)
-      : all_ranks(ranks),
-        picture(scene, options, choose_denoiser(options.denoise, ranks)),
-        team(std::in_place, picture.region, ranks, picture.threads),
-        statistics(picture.statistics) {}
+  Implementation(const scene::Scene& scene, const RenderOptions& options)
+      : picture(scene, options), team(std::in_place, picture), statistics(picture.statistics) {}
 
   void set_options(const RenderOptions& options) {
     const PixelRect region = picture.region;
-    picture.set_options(options, choose_denoiser(options.denoise, all_ranks));
+    picture.set_options(options);
     statistics = picture.statistics;
     memory.fresh_steps = steps_of_frames(picture);
     if (picture.region == region) return;
-    team.emplace(picture.region, all_ranks, picture.threads);
+    team.emplace(picture);
     memory.forget();
   }
 
-  Ranks& all_ranks;
   PreparedPicture picture;
   std::optional<PictureTeam> team;
   RenderStatistics statistics;
@@ -37,9 +33,7 @@ struct Renderer::Implementation {
 };
 
 Renderer::Renderer(const scene::Scene& scene, const RenderOptions& options)
-    : Renderer(scene, options, one_rank()) {}
-Renderer::Renderer(const scene::Scene& scene, const RenderOptions& options, Ranks& ranks)
-    : implementation_(std::make_unique<Implementation>(scene, options, ranks)) {}
+    : implementation_(std::make_unique<Implementation>(scene, options)) {}
 Renderer::~Renderer() = default;
 Renderer::Renderer(Renderer&&) noexcept = default;
 

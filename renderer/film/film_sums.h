@@ -1,5 +1,6 @@
 #pragma once
-// The exact sums of a film. One visit of its planes serves checkpoints, other ranks and the memory estimate.
+// The exact sums of a film. One visit of its planes serves checkpoints, other processes and the memory
+// estimate.
 
 #include <array>
 #include <cstddef>

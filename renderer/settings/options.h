@@ -18,6 +18,8 @@
 
 namespace gatelight::renderer {
 
+class Ranks;  // distributed/ranks.h
+
 /// The checkpoint file, from which an interrupted render resumes with bit-identical results.
 struct CheckpointOptions {
   std::string file;  ///< empty: none
@@ -102,6 +104,7 @@ struct RenderOptions {
   BackgroundOptions background;
   CacheOptions cache;  ///< of nao and nrc
   CheckpointOptions checkpoint;
+  Ranks* ranks = nullptr;  ///< processes that make the pictures together; null: this one alone
 };
 
 /// Adds the name and value of each plain member that affects bits to a fingerprint, which has `add`
@@ -113,7 +116,7 @@ void add_plain_members(Texts& texts, const RenderOptions& options) {
                                 seed, threads, sampler, filter, filter_width, mis, direct, light_selection,
                                 glass_shadows, watertight, clamp, ao_distance, denoise, aovs, cryptomattes,
                                 light_groups, nan_policy, memory_limit_bytes, isa, camera, environment,
-                                background, cache, checkpoint] = options;
+                                background, cache, checkpoint, ranks] = options;
   texts.add("max-depth", max_depth, "none");
   texts.add("max-transmission-depth", max_transmission_depth, "none");
   texts.add("min-depth", min_depth);

@@ -58,17 +58,11 @@ class ThreadRank final : public renderer::Ranks {
 
   int rank() const override { return static_cast<int>(rank_); }
   int count() const override { return static_cast<int>(boxes_.count()); }
-  std::vector<Bytes> exchange(std::vector<Bytes> outgoing) override {
-    for (std::size_t r = 0; r < outgoing.size(); ++r) sent_ += r == rank_ ? 0 : outgoing[r].size();
-    const std::uint64_t number = next_++;
-    boxes_.send(rank_, number, std::move(outgoing));
-    return boxes_.receive(rank_, number);
-  }
   void broadcast(Bytes& bytes) override {
     bytes = exchange(std::vector<Bytes>(boxes_.count(), rank_ == 0 ? bytes : Bytes()))[0];
   }
-  std::unique_ptr<AllGather> begin_gather(Bytes mine) override {
-    struct Coming : AllGather {
+  std::unique_ptr<Exchange> begin_exchange(std::vector<Bytes> outgoing) override {
+    struct Coming : Exchange {
       ThreadRank* rank;
       std::uint64_t number;
       std::vector<Bytes> wait() override { return rank->boxes_.receive(rank->rank_, number); }
@@ -76,11 +70,12 @@ class ThreadRank final : public renderer::Ranks {
     auto coming = std::make_unique<Coming>();
     coming->rank = this;
     coming->number = next_++;
-    sent_ += mine.size() * (boxes_.count() - 1);
-    boxes_.send(rank_, coming->number, std::vector<Bytes>(boxes_.count(), std::move(mine)));
+    if (outgoing.size() == 1) outgoing.resize(boxes_.count(), Bytes(outgoing[0]));
+    for (std::size_t r = 0; r < outgoing.size(); ++r) sent_ += r == rank_ ? 0 : outgoing[r].size();
+    boxes_.send(rank_, coming->number, std::move(outgoing));
     return coming;
   }
-  Traffic traffic() const override { return {sent_, 0.0}; }
+  renderer::Traffic traffic() const override { return {sent_, 0.0}; }
 
  private:
   std::size_t rank_;

@@ -57,34 +57,34 @@ TEST(OidnLibrary, OtherVersionsAndOtherLibrariesAreRefusedByName) {
 }
 
 TEST(ChosenDenoiser, IsNoneWhereItIsMissingUnlessItIsRequested) {
-  DenoiseOptions options{.supersampling = 2, .library = "/none/libOpenImageDenoise.so.2"};
-  EXPECT_EQ(choose_denoiser(options, one_rank()).library, nullptr) << "there is no search";
-  options.denoiser = DenoiserKind::oidn;
-  expect_refusal<MissingDenoiser>([&] { choose_denoiser(options, one_rank()); }, {"/none"});
-  options.denoiser = DenoiserKind::automatic;
-  const ChosenDenoiser none = choose_denoiser(options, one_rank());
+  RenderOptions options;
+  options.denoise = {.supersampling = 2, .library = "/none/libOpenImageDenoise.so.2"};
+  EXPECT_EQ(choose_denoiser(options).library, nullptr) << "there is no search";
+  options.denoise.denoiser = DenoiserKind::oidn;
+  expect_refusal<MissingDenoiser>([&] { choose_denoiser(options); }, {"/none"});
+  options.denoise.denoiser = DenoiserKind::automatic;
+  const ChosenDenoiser none = choose_denoiser(options);
   EXPECT_EQ(none.library, nullptr);
   EXPECT_NE(none.missing.find("/none"), std::string::npos);
-  RenderOptions render;
-  render.denoise = options;
-  render = with_denoiser(render, none);
+  RenderOptions render = with_denoiser(options, none);
   EXPECT_EQ(render.denoise.denoiser, DenoiserKind::none);
   EXPECT_EQ(render.denoise.supersampling, 1);
-  options.library = GATELIGHT_STAND_IN_OIDN_2;
-  render.denoise = options;
-  render = with_denoiser(render, choose_denoiser(options, one_rank()));
+  options.denoise.library = GATELIGHT_STAND_IN_OIDN_2;
+  render = with_denoiser(options, choose_denoiser(options));
   EXPECT_EQ(render.denoise.denoiser, DenoiserKind::oidn);
   EXPECT_EQ(render.denoise.supersampling, 2);
   render.spp = 3;
-  EXPECT_EQ(with_denoiser(render, choose_denoiser(options, one_rank())).denoise.supersampling, 1);
+  EXPECT_EQ(with_denoiser(render, choose_denoiser(options)).denoise.supersampling, 1);
 }
 
 TEST(ChosenDenoiser, IsThatOfTheFirstRank) {
   std::array<ChosenDenoiser, 2> chosen;
   const auto choose = [&chosen](DenoiserKind kind, const char* of_first, const char* of_second) {
     tests::run_ranks(2, [&](Ranks& ranks) {
-      chosen[static_cast<std::size_t>(ranks.rank())] =
-          choose_denoiser({.denoiser = kind, .library = ranks.first() ? of_first : of_second}, ranks);
+      RenderOptions options;
+      options.denoise = {.denoiser = kind, .library = ranks.first() ? of_first : of_second};
+      options.ranks = &ranks;
+      chosen[static_cast<std::size_t>(ranks.rank())] = choose_denoiser(options);
     });
   };
   for (const DenoiserKind kind : {DenoiserKind::automatic, DenoiserKind::oidn}) {

@@ -66,7 +66,8 @@ std::vector<std::vector<float>> frames_of(const std::vector<Lamps>& lamps, int r
     LampRoom room;
     RenderOptions options = LampRoom::options(Integrator::nrc);
     options.threads = threads;
-    Renderer renderer(room.builder.scene(), options, mine);
+    options.ranks = &mine;
+    Renderer renderer(room.builder.scene(), options);
     renderer.begin_frames(0.0);
     for (std::size_t i = 0; i < lamps.size(); ++i) {
       room.set(lamps[i]);

@@ -31,7 +31,8 @@ Result render_by(int count, const scene::Scene& scene, const RenderOptions& opti
   run_ranks(count, [&](Ranks& ranks) {
     RenderOptions own = options;
     own.threads = 1 + ranks.rank() % 2;
-    Renderer renderer(scene, own, ranks);
+    own.ranks = &ranks;
+    Renderer renderer(scene, own);
     Callbacks callbacks;
     callbacks.stop = [&] { return ++calls == stop_at; };
     Picture picture = renderer.render(callbacks);
@@ -59,9 +60,9 @@ TEST_P(RanksOfPictures, GiveTheBitsOfOneProcess) {
     const Result together = render_by(count, s, options);
     expect_same(together, alone);
     EXPECT_EQ(together.statistics.estimated_error, alone.statistics.estimated_error);
-    ASSERT_EQ(together.statistics.ranks.size(), static_cast<std::size_t>(count));
+    ASSERT_EQ(together.statistics.team.size(), static_cast<std::size_t>(count));
     std::uint64_t samples = 0, paths = 0;
-    for (const RankStatistics& rank : together.statistics.ranks) {
+    for (const RankStatistics& rank : together.statistics.team) {
       samples += rank.samples;
       paths += rank.training_paths;
     }
@@ -193,9 +194,10 @@ TEST(Ranks, EndByATimeLimitTogether) {
 
 TEST(Ranks, RefuseSeries) {
   const scene::Scene s = room();
-  const RenderOptions options = picture_of(Integrator::path);
   run_ranks(2, [&](Ranks& ranks) {
-    Renderer renderer(s, options, ranks);
+    RenderOptions options = picture_of(Integrator::path);
+    options.ranks = &ranks;
+    Renderer renderer(s, options);
     EXPECT_THROW(renderer.render_series({.spp = {1}}, {}), BadOption);
   });
 }
