@@ -228,7 +228,7 @@ std::vector<Option> picture_options(RenderOptions& options) {
          max_error, max_depth, max_transmission_depth, min_depth, seed, threads, sampler, filter,
          filter_width, mis, direct, light_selection, glass_shadows, watertight, clamp, ao_distance, denoise,
          aovs, cryptomattes, light_groups, nan_policy, memory_limit_bytes, isa, camera, environment,
-         background, cache, checkpoint] = options;
+         background, cache, checkpoint, processes] = options;
   std::vector<Option> table;
   add_checkpoint_options(table, checkpoint);
   add_cache_file_options(table, cache);

@@ -116,7 +116,7 @@ void add_plain_members(Texts& texts, const RenderOptions& options) {
                                 seed, threads, sampler, filter, filter_width, mis, direct, light_selection,
                                 glass_shadows, watertight, clamp, ao_distance, denoise, aovs, cryptomattes,
                                 light_groups, nan_policy, memory_limit_bytes, isa, camera, environment,
-                                background, cache, checkpoint, ranks] = options;
+                                background, cache, checkpoint, processes] = options;
   texts.add("max-depth", max_depth, "none");
   texts.add("max-transmission-depth", max_transmission_depth, "none");
   texts.add("min-depth", min_depth);
