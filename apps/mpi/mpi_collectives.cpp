@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <mutex>
+#include <span>
 #include <utility>
 
 #include "apps/mpi/mpi_calls.h"
@@ -37,19 +38,17 @@ void MpiCollectives::broadcast(Bytes& bytes) {
   const MpiMemory<Broadcast> all;
   all->bytes = std::move(bytes);
   all->size = all->bytes.size();
-  {
-    const std::lock_guard lock(mpi_mutex());
-    begin_broadcast(group_.data, std::as_writable_bytes(std::span(&all->size, 1)), all->requests);
-  }
-  wait_for(all->requests);
-
-  all->requests.clear();
+  const auto send = [&](std::span<std::byte> values) {
+    all->requests.clear();
+    {
+      const std::lock_guard lock(mpi_mutex());
+      begin_broadcast(group_.data, values, all->requests);
+    }
+    wait_for(all->requests);
+  };
+  send(std::as_writable_bytes(std::span(&all->size, 1)));
   all->bytes.resize(all->size);
-  {
-    const std::lock_guard lock(mpi_mutex());
-    begin_broadcast(group_.data, all->bytes, all->requests);
-  }
-  wait_for(all->requests);
+  send(all->bytes);
   bytes = std::move(all->bytes);
   if (first()) traffic_.bytes_sent += all->size * static_cast<std::uint64_t>(count() - 1);
 }

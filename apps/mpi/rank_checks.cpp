@@ -44,10 +44,6 @@ std::vector<std::string> identity(const RenderSettings& settings, const scene::S
   return lines;
 }
 
-int rank_of_isa(const std::string& name) {
-  return static_cast<int>(*simd::parse_isa(name));
-}
-
 }  // namespace
 
 void share_machines(RenderSettings& settings, MpiCollectives& all) {
@@ -61,16 +57,15 @@ void share_machines(RenderSettings& settings, MpiCollectives& all) {
   }
   // Instruction sets of the rays and of the kernels. Equal machines choose as a single process does. Ranks
   // with --isa take part too, because the options are compared later.
-  const std::array<int, 2> best = {rank_of_isa(renderer::best_isa()), static_cast<int>(simd::select_isa())};
-  int least = std::min(best[0], best[1]);
+  const std::array<simd::Isa, 2> best = {*simd::parse_isa(renderer::best_isa()), simd::select_isa()};
+  simd::Isa least = std::min(best[0], best[1]);
   bool equal = true;
-  for (const std::array<int, 2>& other : all.of_each(best)) {
+  for (const std::array<simd::Isa, 2>& other : all.of_each(best)) {
     least = std::min({least, other[0], other[1]});
     equal &= other == best;
   }
   // Each rank compares with its own sets; any() gives all ranks the same result.
-  if (all.any(!equal) && options.isa == "auto")
-    options.isa = std::string(simd::isa_name(static_cast<simd::Isa>(least)));
+  if (all.any(!equal) && options.isa == "auto") options.isa = std::string(simd::isa_name(least));
 }
 
 void expect_equal_ranks(const RenderSettings& settings, const scene::Scene& scene, MpiCollectives& all) {
