@@ -48,7 +48,7 @@ class Ranks {
   std::vector<Bytes> gather(Bytes mine) { return begin_gather(std::move(mine))->wait(); }
 
   /// Replaces `bytes` by those of rank 0.
-  virtual void broadcast(Bytes&) {}
+  virtual void broadcast(Bytes& bytes) { bytes = gather(first() ? std::move(bytes) : Bytes())[0]; }
 
   // The same for values, which are numbers or structs of numbers without pointers.
 

@@ -58,9 +58,6 @@ class ThreadRank final : public renderer::Ranks {
 
   int rank() const override { return static_cast<int>(rank_); }
   int count() const override { return static_cast<int>(boxes_.count()); }
-  void broadcast(Bytes& bytes) override {
-    bytes = exchange(std::vector<Bytes>(boxes_.count(), rank_ == 0 ? bytes : Bytes()))[0];
-  }
   std::unique_ptr<Exchange> begin_exchange(std::vector<Bytes> outgoing) override {
     struct Coming : Exchange {
       ThreadRank* rank;
