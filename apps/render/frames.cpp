@@ -26,9 +26,8 @@ namespace {
 /// The frames of one camera.
 class FrameRun {
  public:
-  FrameRun(const RenderSettings& settings, scene::SceneFile& file, scene::Scene& scene,
-           const RenderCall& call)
-      : settings_(settings), file_(file), scene_(scene), call_(call), console_(call.console) {}
+  FrameRun(const RenderSettings& settings, scene::SceneFile& file, scene::Scene& scene, PictureMaker& maker)
+      : settings_(settings), file_(file), scene_(scene), maker_(maker), console_(maker.console) {}
 
   /// Returns the exit code.
   int run() {
@@ -48,7 +47,7 @@ class FrameRun {
     const std::optional<int> done = begin(sequence, before);
     std::vector<int> frames(done ? std::find(all.begin(), all.end(), *done) + 1 : all.begin(), all.end());
     std::erase_if(frames, [&](int frame) { return existing.contains(frame); });
-    return render(sequence, call_.team.own_frames(frames), frames.size());
+    return render(sequence, maker_.team.own_frames(frames), frames.size());
   }
 
   /// The first failure of a frame that was not reported.
@@ -60,7 +59,7 @@ class FrameRun {
     std::set<int> existing;
     if (!settings_.skip_existing) return existing;
     for (const int frame : frames) {
-      if (call_.team.agreed(are_there(settings_of_frame(settings_, frame).outputs))) existing.insert(frame);
+      if (maker_.team.agreed(are_there(settings_of_frame(settings_, frame).outputs))) existing.insert(frame);
     }
     console_.note_skipped(existing.size(), frames.size());
     return existing;
@@ -143,12 +142,12 @@ class FrameRun {
       } catch (const DeviceLost&) {
         throw;
       } catch (const std::exception&) {
-        if (!call_.team.is_alone()) throw;  // the others wait for this one
+        if (!maker_.team.is_alone()) throw;  // the others wait for this one
         note_failed_frame(frames[i]);
       }
       if (number != 0) break;
     }
-    const FrameResults all = call_.team.joined({number, i, console_.printed_warnings(), failure_});
+    const FrameResults all = maker_.team.joined({number, i, console_.printed_warnings(), failure_});
     if (all.signal != 0) return note_stop(all.signal, all.done, count);
     for (const std::string& warning : all.warnings) console_.warn(warning);
     report(count, seconds_since(begin_));
@@ -159,17 +158,17 @@ class FrameRun {
   /// Returns the number of a signal that ended it, or 0.
   int make_frame(FrameSequence& sequence, int frame, bool last) {
     const RenderSettings settings = settings_of_frame(settings_, frame);
-    call_.maker.begin(settings);
+    maker_.begin(settings);
     make_folders(frame);
     sequence.show(frame);
     console_.warn(scene_.warnings);
     console_.warn(sequence.renderer().statistics().warnings);
-    if (const int number = call_.team.signal(); number != 0) return number;
-    renderer::Picture picture = sequence.render(frame, call_.maker.callbacks(sequence.renderer()));
+    if (const int number = maker_.team.signal(); number != 0) return number;
+    renderer::Picture picture = sequence.render(frame, maker_.callbacks(sequence.renderer()));
     // An unfinished frame would look like a finished one.
-    if (const int number = call_.team.signal(); number != 0) return number;
-    call_.maker.finish(std::move(picture), sequence.renderer().statistics());
-    if (!call_.team.writes()) return 0;
+    if (const int number = maker_.team.signal(); number != 0) return number;
+    maker_.finish(std::move(picture), sequence.renderer().statistics());
+    if (!maker_.team.writes()) return 0;
     write_state(sequence, frame, last);
     const RunReport& report = console_.report;
     if (!console_.progress.frame_done(frame, summary_json(settings, report)) && !console_.quiet()) {
@@ -180,7 +179,7 @@ class FrameRun {
   }
 
   void make_folders(int frame) const {
-    if (!call_.team.writes()) return;
+    if (!maker_.team.writes()) return;
     for (const std::string& output : settings_.outputs) make_folders_of_frame(output, frame);
     for (const std::string& file : {settings_.stats, settings_.render.cache.cache_out})
       make_folders_of_frame(file, frame);
@@ -214,7 +213,7 @@ class FrameRun {
   RenderSettings settings_;  ///< of all frames
   scene::SceneFile& file_;
   scene::Scene& scene_;
-  const RenderCall& call_;
+  PictureMaker& maker_;
   Console& console_;
   Clock::time_point begin_;
   std::size_t warnings_of_loading_ = 0;
@@ -224,14 +223,14 @@ class FrameRun {
 }  // namespace
 
 int render_frames(const RenderSettings& settings, scene::SceneFile& file, scene::Scene& scene,
-                  const RenderCall& call) {
+                  PictureMaker& maker) {
   std::exception_ptr failure;
   for (const RenderSettings& of_camera : pictures_of(settings, scene)) {
-    FrameRun run(of_camera, file, scene, call);
+    FrameRun run(of_camera, file, scene, maker);
     if (const int signal_code = run.run(); signal_code != kDone) return signal_code;
     if (!failure) failure = run.failure();
   }
-  call.team.agreed(true);  // waits for the one that prints: what follows may end all
+  maker.team.agreed(true);  // waits for the one that prints: what follows may end all
   if (failure) std::rethrow_exception(failure);
   return kDone;
 }

@@ -10,6 +10,6 @@ namespace gatelight::apps {
 /// Returns the exit code. A frame that fails does not keep the others from being rendered: the first failure
 /// is thrown after them.
 int render_frames(const RenderSettings& settings, scene::SceneFile& file, scene::Scene& scene,
-                  const RenderCall& call);
+                  PictureMaker& maker);
 
 }  // namespace gatelight::apps

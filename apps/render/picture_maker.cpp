@@ -17,8 +17,8 @@
 
 namespace gatelight::apps {
 
-PictureMaker::PictureMaker(Console& console, const RunTeam& team, std::string bright_lights)
-    : console_(console), team_(team), bright_lights_(std::move(bright_lights)) {}
+PictureMaker::PictureMaker(Console& console_in, const RunTeam& team_in, std::string bright_lights)
+    : console(console_in), team(team_in), bright_lights_(std::move(bright_lights)) {}
 
 void PictureMaker::begin(const RenderSettings& settings, Clock::time_point start) {
   settings_ = settings;
@@ -27,7 +27,7 @@ void PictureMaker::begin(const RenderSettings& settings, Clock::time_point start
 
 renderer::Callbacks PictureMaker::callbacks(const renderer::Renderer& renderer) {
   return {
-      .progress = [this](const renderer::Progress& progress) { console_.progress.update(progress); },
+      .progress = [this](const renderer::Progress& progress) { console.progress.update(progress); },
       .stop = [] { return stop_signal() != 0; },
       .snapshot_wanted = [] { return take_snapshot_request(); },
       .snapshot = [this, &renderer](
@@ -38,13 +38,13 @@ renderer::Callbacks PictureMaker::callbacks(const renderer::Renderer& renderer) 
 }
 
 int PictureMaker::finish(renderer::Picture picture, const renderer::RenderStatistics& statistics) {
-  RunReport& report = console_.report;
+  RunReport& report = console.report;
   report.statistics = statistics;
-  report.signal = team_.signal();
-  team_.describe(report);
-  console_.warn(warnings_of(statistics));
-  if (team_.writes()) write_results(std::move(picture));
-  team_.wait_for_writer();  // what follows may end all of them
+  report.signal = team.signal();
+  team.describe(report);
+  console.warn(warnings_of(statistics));
+  if (team.writes()) write_results(std::move(picture));
+  team.wait_for_writer();  // what follows may end all of them
   require_good_end(statistics, true);
   if (failed_output_) std::rethrow_exception(failed_output_);
   return report.signal == 0 ? kDone : kSignalBase + report.signal;
@@ -53,7 +53,7 @@ int PictureMaker::finish(renderer::Picture picture, const renderer::RenderStatis
 void PictureMaker::write(renderer::Picture picture, const renderer::RenderStatistics& statistics,
                          const std::vector<std::string>& outputs) {
   const renderer::ImageWriteOptions image =
-      finish_picture(picture, settings_, statistics, seconds_since(start_), console_.report);
+      finish_picture(picture, settings_, statistics, seconds_since(start_), console.report);
   warn_of_glare(picture, image.display);
   write_pictures(picture, outputs, image);
 }
@@ -65,34 +65,34 @@ void PictureMaker::warn_of_glare(const renderer::Picture& picture, const rendere
   const std::string text = glare_warning(picture, display, renderer::auto_exposure(picture), bright_lights_);
   if (text.empty()) return;
   glare_reported_ = true;
-  console_.warn(text);
+  console.warn(text);
 }
 
 void PictureMaker::write_snapshot(const renderer::Picture& picture,
                                   const renderer::RenderStatistics& statistics) {
   try {
     write(picture, statistics, files_of(settings_.outputs));
-    console_.progress.clear();
+    console.progress.clear();
     log_detail("snapshot written");
   } catch (const std::exception& error) {
     // The outputs are written again at the end of the run.
-    console_.warn(fmt::format("snapshot: {}", error.what()));
+    console.warn(fmt::format("snapshot: {}", error.what()));
   }
 }
 
 void PictureMaker::write_results(renderer::Picture picture) {
-  RunReport& report = console_.report;
-  console_.progress.phase("write");
+  RunReport& report = console.report;
+  console.progress.phase("write");
   if (const std::string text = overflow_warning(picture, settings_.outputs, settings_.image); !text.empty())
-    console_.warn(text);
+    console.warn(text);
   const Clock::time_point start = Clock::now();
   write(std::move(picture), report.statistics, settings_.outputs);
   report.write_seconds = seconds_since(start);
   report.total_seconds = seconds_since(start_);
   if (!settings_.stats.empty()) write_text(settings_.stats, stats_json(settings_, report));
   if (settings_.frames.range) return;
-  const bool as_json = console_.progress.done(summary_json(settings_, report));
-  if (!as_json && !console_.quiet()) print_status(summary(settings_, report));
+  const bool as_json = console.progress.done(summary_json(settings_, report));
+  if (!as_json && !console.quiet()) print_status(summary(settings_, report));
   if (report.signal != 0) print_notice(stop_notice(settings_, report), kSignalBase + report.signal);
 }
 
@@ -100,7 +100,7 @@ void PictureMaker::note_failed_output(const std::exception_ptr& error, bool agai
   try {
     std::rethrow_exception(error);
   } catch (const std::exception& failure) {
-    console_.warn(fmt::format("{}; rendering continues{}", failure.what(),
+    console.warn(fmt::format("{}; rendering continues{}", failure.what(),
                               again ? ", and the write will be retried" : ""));
   }
   if (!again && !failed_output_) failed_output_ = error;

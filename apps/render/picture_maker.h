@@ -16,7 +16,10 @@ namespace gatelight::apps {
 class PictureMaker {
  public:
   /// `bright_lights`: lights_from_watts() of the scene.
-  PictureMaker(Console& console, const RunTeam& team, std::string bright_lights);
+  PictureMaker(Console& console_in, const RunTeam& team_in, std::string bright_lights);
+
+  Console& console;
+  const RunTeam& team;
 
   /// Begins the next picture. `start`: from where its seconds count.
   void begin(const RenderSettings& settings, Clock::time_point start = Clock::now());
@@ -33,8 +36,6 @@ class PictureMaker {
   void write_results(renderer::Picture picture);
   void note_failed_output(const std::exception_ptr& error, bool again);
 
-  Console& console_;
-  const RunTeam& team_;
   const std::string bright_lights_;
   RenderSettings settings_;
   Clock::time_point start_;

@@ -56,8 +56,8 @@ int render(RenderSettings settings, const std::vector<std::string>& command, Run
     return note_signal_before_picture(console, number, settings.scene);
   team.check(settings, scene);
   PictureMaker maker(console, team, lights_from_watts(scene));
-  return settings.frames.range ? render_frames(settings, file, scene, {console, maker, team})
-                               : render_stills(settings, scene, {console, maker, team}, start);
+  return settings.frames.range ? render_frames(settings, file, scene, maker)
+                               : render_stills(settings, scene, maker, start);
 }
 
 }  // namespace gatelight::apps

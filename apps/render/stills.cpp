@@ -14,15 +14,15 @@ int note_signal_before_picture(Console& console, int signal, const std::string& 
                              fmt::format("before the first pass of '{}'; nothing was written", scene));
 }
 
-int render_stills(const RenderSettings& settings, const scene::Scene& scene, const RenderCall& call,
+int render_stills(const RenderSettings& settings, const scene::Scene& scene, PictureMaker& maker,
                   Clock::time_point start) {
-  const auto& [console, maker, team] = call;
+  Console& console = maker.console;
+  const RunTeam& team = maker.team;
   std::vector<RenderSettings> pictures = pictures_of(settings, scene);
   if (settings.skip_existing) {
     const std::size_t count = pictures.size();
-    std::erase_if(pictures, [&team = team](const RenderSettings& picture) {
-      return team.agreed(are_there(picture.outputs));
-    });
+    std::erase_if(pictures,
+                  [&team](const RenderSettings& picture) { return team.agreed(are_there(picture.outputs)); });
     console.note_skipped(count - pictures.size(), count);
     if (pictures.empty()) return kDone;
   }

@@ -5,18 +5,11 @@
 
 namespace gatelight::apps {
 
-/// What the pictures of a call share.
-struct RenderCall {
-  Console& console;
-  PictureMaker& maker;
-  const RunTeam& team;
-};
-
 /// Says that a signal came before the first pass. Returns the exit code.
 int note_signal_before_picture(Console& console, int signal, const std::string& scene);
 
 /// `start`: from where the seconds of the first picture count. Returns the exit code.
-int render_stills(const RenderSettings& settings, const scene::Scene& scene, const RenderCall& call,
+int render_stills(const RenderSettings& settings, const scene::Scene& scene, PictureMaker& maker,
                   Clock::time_point start);
 
 }  // namespace gatelight::apps
