@@ -87,13 +87,12 @@ std::vector<std::uint32_t> read_stack(const std::string& option, const std::stri
 
 constexpr std::string_view kFixed = "fixed:";
 
-std::string resolution_text(const neural::GateOptions& gate) {
+OptionValue resolution_value(const neural::GateOptions& gate) {
   const bool fixed = gate.rule == neural::ResolutionRule::fixed;
   return fixed ? fmt::format("{}{}", kFixed, gate.fixed_resolution) : enum_name(gate.rule);
 }
 
-void read_resolution(const std::string& text, neural::GateOptions& gate) {
-  const std::string option = "resolution";
+void read_resolution(neural::GateOptions& gate, const std::string& option, const std::string& text) {
   if (text.starts_with(kFixed)) {
     gate.fixed_resolution =
         static_cast<std::uint32_t>(parse_integer(option, text.substr(kFixed.size()), kResolution));
@@ -116,21 +115,17 @@ std::string read_device(const std::string& option, const std::string& text) {
   return text;
 }
 
+int read_start_step(const std::string& option, const std::string& text) {
+  return text == "off" ? -1 : static_cast<int>(parse_integer(option, text, kSteps));
+}
+
 void add_self_training_options(OptionGroup& group, SelfTrainingOptions& options) {
   auto& [start_step, vertices, full_fraction, attenuation] = options;
-  group.add({.name = "self-training",
-             .unit = "STEP|off",
-             .help = "First step whose training paths end with an answer of the cache itself; off: all paths "
-                     "are traced to their end",
-             .value = [&options]() -> OptionValue {
-               if (options.start_step < 0) return "off";
-               return value_of(options.start_step);
-             },
-             .read =
-                 [&options](const std::string& text) {
-                   options.start_step =
-                       text == "off" ? -1 : static_cast<int>(parse_integer("self-training", text, kSteps));
-                 }},
+  group.add(read_by(
+                "self-training", start_step, "STEP|off",
+                "First step whose training paths end with an answer of the cache itself; off: all paths are "
+                "traced to their end",
+                [](int step) { return step < 0 ? OptionValue("off") : value_of(step); }, read_start_step),
             {.needs = {kNrc}});
   group.add(number("self-training-vertices", vertices, kPaths, "N",
                    "Vertices that become records before the cache answers for the rest of the path"),
@@ -213,12 +208,10 @@ void add_gate_options(OptionGroup& group, neural::GateOptions& options, std::opt
               "gate: resolutions of the levels, separated by commas, at most 4; 'adaptive' is the result of "
               "--resolution, 'adaptive/4' a quarter of it",
               neural::stack_text, read_stack));
-  add({.name = "resolution",
-       .unit = "uniform|paper|fixed:R",
-       .help = "gate: number of feature vectors along a triangle's edge, for each instance: from "
-               "--node-spacing, by the paper's rule, or R everywhere",
-       .value = [&options] { return resolution_text(options); },
-       .read = [&options](const std::string& text) { read_resolution(text, options); }});
+  add(read_by("resolution", options, "uniform|paper|fixed:R",
+              "gate: number of feature vectors along a triangle's edge, for each instance: from "
+              "--node-spacing, by the paper's rule, or R everywhere",
+              resolution_value, read_resolution));
   add(number("resolution-scale", resolution_scale, kPositive, "X", "gate: factor in the paper's rule"),
       {kGate, kPaperRule});
   add(number_or("auto", "node-spacing", spacing, kPositive, "METRES",
@@ -256,15 +249,14 @@ void add_shape_options(std::vector<Option>& table, CacheOptions& options) {
              "Location of the features: on the triangles, or in a hash grid in space"));
   add_gate_options(group, options.gate, options.node_spacing);
   add_hash_grid_options(group, options.hash_grid);
-  const auto read_memory = [&options](const std::string& text) {
-    const double bytes = parse_real("cache-memory", text, {0.0, 1099511627776.0}) * 1048576.0;
-    options.memory_bytes = static_cast<std::uint64_t>(std::ceil(bytes));
-  };
-  add({.name = "cache-memory",
-       .unit = "MIB",
-       .help = "Memory limit of the features in MiB; within it, they are as fine as possible; 0: no limit",
-       .value = [&options] { return static_cast<double>(options.memory_bytes) / 1048576.0; },
-       .read = read_memory});
+  add(read_by(
+      "cache-memory", options.memory_bytes, "MIB",
+      "Memory limit of the features in MiB; within it, they are as fine as possible; 0: no limit",
+      [](std::uint64_t bytes) { return static_cast<double>(bytes) / 1048576.0; },
+      [](const std::string& option, const std::string& text) {
+        const double bytes = parse_real(option, text, {0.0, 1099511627776.0}) * 1048576.0;
+        return static_cast<std::uint64_t>(std::ceil(bytes));
+      }));
   add(choice("feature-precision", options.training.precision,
              "fp16: queries read features of 16 bits, training changes copies of 32 bits; fp16-only: 16 bits "
              "in training too, for half the memory"));

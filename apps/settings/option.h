@@ -183,16 +183,23 @@ Option choice(const std::string& name, Enumeration& member, const char* help) {
   return choice(name, member, Choices<Enumeration>(kEnumNames<Enumeration>), help);
 }
 
-/// A member that a function of its own reads from the option's name and a text. It has no value where
-/// `value` gives none.
+/// A member with functions of its own. It has no value where `value` gives none. `read` returns the member of
+/// the option's name and a text, or changes the member by them.
 template <class Member, class Value, class Read>
-Option read_by(const std::string& name, Member& member, const char* unit, const char* help, Value value,
-               Read read) {
+Option read_by(const std::string& name, Member& member, const std::string& unit, const std::string& help,
+               Value value, Read read) {
+  const auto change = [&member, name, read](const std::string& text) {
+    if constexpr (std::is_invocable_v<Read, Member&, const std::string&, const std::string&>) {
+      read(member, name, text);
+    } else {
+      member = read(name, text);
+    }
+  };
   return {.name = name,
           .unit = unit,
           .help = help,
           .value = [&member, value]() -> OptionValue { return value(member); },
-          .read = [&member, name, read](const std::string& text) { member = read(name, text); }};
+          .read = change};
 }
 
 /// Any word; an empty one counts as no value.

@@ -55,15 +55,15 @@ void add_call_options(OptionGroup& group, RenderSettings& settings) {
 /// A part of the view of --eye. Recipes have the complete view.
 Option by_hand(const char* name, std::optional<std::array<float, 3>>& member,
                const renderer::CameraOptions& camera, Vec3 LookAt::*part, const char* help) {
-  const auto value = [&camera, part]() -> OptionValue {
+  const auto value = [&camera, part](const auto&) -> OptionValue {
     if (!camera.look_at) return {};
     const Vec3& v = (*camera.look_at).*part;
     return std::vector<float>{v.x(), v.y(), v.z()};
   };
-  const auto read = [&member, name](const std::string& text) {
-    member = parse_triple(name, text, kAnyFloat);
+  const auto read = [](const std::string& option, const std::string& text) {
+    return parse_triple(option, text, kAnyFloat);
   };
-  return {.name = name, .unit = "x,y,z", .help = help, .value = value, .read = read};
+  return read_by(name, member, "x,y,z", help, value, read);
 }
 
 void add_load_options(OptionGroup& group, scene::LoadOptions& load) {
@@ -144,20 +144,17 @@ void add_frame_options(OptionGroup& group, FrameSettings& frames) {
             {.in_sweep = false, .stage = OptionStage::program, .in_recipe = InRecipe::never});
 }
 
-Option preset_option(std::optional<CachePreset>& preset) {
-  const auto read = [&preset](const std::string& text) {
-    preset = parse_choice("preset", text, kEnumNames<CachePreset>);
-  };
-  return {.name = "preset",
-          .unit = choice_names(kEnumNames<CachePreset>),
-          .help =
-              "Sets many flags, which other flags override. bare: the cache's answers only; preview, "
-              "standard, final: finished pictures in seconds, with little grain, or of final quality; "
-              "paper-nao, paper-nrc: the settings of the GATE paper, including size and samples",
-          .value = [&preset] { return preset ? enum_name(*preset) : OptionValue(); },
-          .read = read,
-          .group = "Light transport",
-          .marks = {.common = true, .in_recipe = InRecipe::unless_reproducible}};
+void add_preset(OptionGroup& group, std::optional<CachePreset>& preset) {
+  group.add(read_by(
+                "preset", preset, choice_names(kEnumNames<CachePreset>),
+                "Sets many flags, which other flags override. bare: the cache's answers only; preview, "
+                "standard, final: finished pictures in seconds, with little grain, or of final quality; "
+                "paper-nao, paper-nrc: the settings of the GATE paper, including size and samples",
+                [](const auto& chosen) { return chosen ? enum_name(*chosen) : OptionValue(); },
+                [](const std::string& option, const std::string& text) {
+                  return parse_choice(option, text, kEnumNames<CachePreset>);
+                }),
+            {.common = true, .in_recipe = InRecipe::unless_reproducible});
 }
 
 }  // namespace
@@ -228,11 +225,11 @@ std::vector<Option> option_table(RenderSettings& settings) {
   OptionGroup output{table, "Output"};
   add_picture_files(output, outputs, image, exposure);
   add_call_options(output, settings);
-  OptionGroup view{table, "Scene and view"};
+  OptionGroup view{table, "Scene and view"}, light{table, "Light transport"};
   for (Option& option : picture_options(render)) {
     const std::string name = option.name;
     table.push_back(std::move(option));
-    if (name == "integrator") table.push_back(preset_option(preset));
+    if (name == "integrator") add_preset(light, preset);
     if (name == "environment-scale") {
       add_load_options(view, load);
       add_frame_options(view, frames);

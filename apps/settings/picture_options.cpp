@@ -108,11 +108,10 @@ Option aov_option(std::vector<Aov>& aovs) {
   }
   words["passes"] = all_passes();
   help += "passes (light in parts), all";
-  return {.name = "aov",
-          .unit = "LIST",
-          .help = help,
-          .value = [&] { return words_of(aovs); },
-          .read = [&aovs, words](const std::string& text) { aovs = read_words("aov", text, words); }};
+  return read_by("aov", aovs, "LIST", help, words_of<Aov>,
+                 [words](const std::string& option, const std::string& text) {
+                   return read_words(option, text, words);
+                 });
 }
 
 Option cryptomatte_option(std::vector<MatteKind>& kinds) {
@@ -208,14 +207,13 @@ void add_machine_options(std::vector<Option>& table, int& threads, std::size_t& 
   machine.add(number("threads", threads, {0, 1024}, "N",
                      "Number of threads; 0: as many as machine and control group allow"),
               of_machine);
-  const auto read_limit = [&](const std::string& text) {
-    memory_limit_bytes = static_cast<std::size_t>(parse_integer("memory-limit", text, kMebibytes)) << 20;
-  };
-  machine.add({.name = "memory-limit",
-               .unit = "MIB",
-               .help = "Memory limit in MiB; renders that need more are refused; 0: no limit",
-               .value = [&] { return value_of(memory_limit_bytes >> 20); },
-               .read = read_limit},
+  machine.add(read_by(
+                  "memory-limit", memory_limit_bytes, "MIB",
+                  "Memory limit in MiB; renders that need more are refused; 0: no limit",
+                  [](std::size_t bytes) { return value_of(bytes >> 20); },
+                  [](const std::string& option, const std::string& text) {
+                    return static_cast<std::size_t>(parse_integer(option, text, kMebibytes)) << 20;
+                  }),
               of_machine);
   machine.add(choice("isa", isa, kIsa, "Instruction set of ray tracing, shading and the cache"),
               {.of_field = true});

@@ -11,13 +11,13 @@ namespace {
 
 using namespace renderer;
 
-void read_environment(EnvironmentOptions& environment, const std::string& text) {
+void read_environment(EnvironmentOptions& environment, const std::string& option, const std::string& text) {
   environment.automatic = text == "auto";
   environment.file.clear();
   environment.constant = Color::Zero();
   if (text == "none" || text == "auto") return;
   if (looks_like_triple(text)) {
-    const std::array<float, 3> rgb = parse_triple("environment", text, kNotNegative);
+    const std::array<float, 3> rgb = parse_triple(option, text, kNotNegative);
     environment.constant = {rgb[0], rgb[1], rgb[2]};
   } else {
     environment.file = text;
@@ -51,14 +51,19 @@ OptionValue fog_value(const std::optional<FogOptions>& fog) {
   return std::vector<float>{fog->density, fog->albedo.x(), fog->albedo.y(), fog->albedo.z(), fog->anisotropy};
 }
 
-void read_background(BackgroundOptions& background, const std::string& text) {
+std::optional<SkyOptions> read_sky_or_none(const std::string& option, const std::string& text) {
+  if (text == "none") return std::nullopt;
+  return read_sky(option, text);
+}
+
+void read_background(BackgroundOptions& background, const std::string& option, const std::string& text) {
   using Kind = BackgroundOptions::Kind;
   background = {.shadow_catcher = background.shadow_catcher};
   if (text == "scene") return;
   if (text == "transparent") {
     background.kind = Kind::transparent;
   } else if (looks_like_triple(text)) {
-    const std::array<float, 3> rgb = parse_triple("background", text, kNotNegative);
+    const std::array<float, 3> rgb = parse_triple(option, text, kNotNegative);
     background.kind = Kind::color;
     background.color = {rgb[0], rgb[1], rgb[2]};
   } else {
@@ -75,25 +80,24 @@ OptionValue background_value(const BackgroundOptions& background) {
   return std::vector<float>{background.color.x(), background.color.y(), background.color.z()};
 }
 
-void read_aperture(LensOptions& lens, const std::string& text) {
+void read_aperture(LensOptions& lens, const std::string& option, const std::string& text) {
   const RealRange range{.min = 0.0, .max = 1e6};
   const bool stops = text.starts_with("f/");
-  const auto value = static_cast<float>(parse_real("aperture", stops ? text.substr(2) : text, range));
-  if (stops && !(value > 0.0f)) throw BadOption({"aperture", text, "is not an f-stop", "more than 0"});
+  const auto value = static_cast<float>(parse_real(option, stops ? text.substr(2) : text, range));
+  if (stops && !(value > 0.0f)) throw BadOption({option, text, "is not an f-stop", "more than 0"});
   lens.f_stop = stops ? value : 0.0f;
   lens.aperture = stops ? 0.0f : value;
 }
 
+std::string aperture_text(const LensOptions& lens) {
+  return lens.f_stop > 0.0f ? fmt::format("f/{}", lens.f_stop) : fmt::format("{}", lens.aperture);
+}
+
 void add_lens_options(OptionGroup& view, LensOptions& lens) {
   [[maybe_unused]] auto& [aperture, f_stop, focus, blades] = lens;  // one flag sets the first two
-  const auto aperture_value = [&lens]() -> OptionValue {
-    return lens.f_stop > 0.0f ? fmt::format("f/{}", lens.f_stop) : fmt::format("{}", lens.aperture);
-  };
-  view.add({.name = "aperture",
-            .unit = "f/N|METRES",
-            .help = "Depth of field: aperture of the lens as an f-stop or a diameter; 0: everything is sharp",
-            .value = aperture_value,
-            .read = [&lens](const std::string& text) { read_aperture(lens, text); }},
+  view.add(read_by("aperture", lens, "f/N|METRES",
+                   "Depth of field: aperture of the lens as an f-stop or a diameter; 0: everything is sharp",
+                   aperture_text, read_aperture),
            {.of_view = true});
   view.add(any_word("focus", focus, "METRES|NODE",
                     "With --aperture: focus distance along the view, or an object to focus on (default: the "
@@ -134,29 +138,20 @@ void add_view_options(std::vector<Option>& table, renderer::CameraOptions& camer
   add_lens_options(view, lens);
   [[maybe_unused]] auto& [automatic, file, constant, sky, rotation_degrees, scale, fog] =
       environment;  // one flag sets the first three
-  view.add({.name = "environment",
-            .unit = "auto|none|r,g,b|FILE",
-            .help = "Environment light: a soft sky if the scene is dark without it (auto), none, a constant "
-                    "radiance, or a latitude-longitude .exr or .hdr",
-            .value = [&environment] { return environment_value(environment); },
-            .read = [&environment](const std::string& text) { read_environment(environment, text); }},
+  view.add(read_by("environment", environment, "auto|none|r,g,b|FILE",
+                   "Environment light: a soft sky if the scene is dark without it (auto), none, a constant "
+                   "radiance, or a latitude-longitude .exr or .hdr",
+                   environment_value, read_environment),
            {.common = true, .in_window = true, .excludes = {"sky"}});
-  view.add(
-      {.name = "sky",
-       .unit = "none|clear|PART=VALUE,...",
-       .help = "Clear sky with a sun, instead of --environment: turbidity=3, sun=AZIMUTH,ELEVATION (degrees; "
+  view.add(read_by(
+               "sky", sky, "none|clear|PART=VALUE,...",
+               "Clear sky with a sun, instead of --environment: turbidity=3, sun=AZIMUTH,ELEVATION (degrees; "
                "north is -z, east is +x), ground=ALBEDO, size=0.53 (diameter of the sun in degrees; 0: a "
                "directional light), intensity=1. Instead of the sun's position: date=2026-06-21, time=14:30, "
                "place=LATITUDE,LONGITUDE, zone=+2. A white surface in full daylight has a radiance of 1",
-       .value = [&environment]() -> OptionValue {
-         return environment.sky ? text_of(*environment.sky) : "none";
-       },
-       .read =
-           [&environment](const std::string& text) {
-             environment.sky.reset();
-             if (text != "none") environment.sky = read_sky("sky", text);
-           }},
-      {.in_window = true, .excludes = {"environment"}});
+               [](const std::optional<SkyOptions>& chosen) { return chosen ? text_of(*chosen) : "none"; },
+               read_sky_or_none),
+           {.in_window = true, .excludes = {"environment"}});
   view.add(read_by("fog", fog, "none|DENSITY[,r,g,b[,g]]",
                    "Fog in the bounds of the scene: extinction per metre, single-scattering albedo [1,1,1], "
                    "and mean cosine of scattering [0], from -0.99 to 0.99",
@@ -165,13 +160,10 @@ void add_view_options(std::vector<Option>& table, renderer::CameraOptions& camer
   // One flag sets the first three.
   [[maybe_unused]] auto& [kind, color, background_file, shadow_catcher] = background;
   view.add(
-      {.name = "background",
-       .unit = "scene|transparent|r,g,b|FILE",
-       .help =
-           "Background, also visible through holes and panes: the environment (scene), an alpha channel "
-           "(transparent), a constant radiance or a picture. Mirrors and solid glass show the environment",
-       .value = [&background] { return background_value(background); },
-       .read = [&background](const std::string& text) { read_background(background, text); }},
+      read_by("background", background, "scene|transparent|r,g,b|FILE",
+              "Background, also visible through holes and panes: the environment (scene), an alpha channel "
+              "(transparent), a constant radiance or a picture. Mirrors and solid glass show the environment",
+              background_value, read_background),
       {.common = true, .in_window = true, .of_denoise = true});
   view.add(any_word("shadow-catcher", shadow_catcher, "NODE",
                     "With a --background other than scene: an object of the file that is invisible except "
