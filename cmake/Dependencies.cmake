@@ -19,7 +19,6 @@ if(embree_VERSION VERSION_LESS 3.13)
 endif()
 find_package(TBB 2021 CONFIG REQUIRED)
 find_package(CLI11 CONFIG REQUIRED)
-find_package(spdlog CONFIG REQUIRED)
 # cpp-httplib has no CMake files in Debian 12.
 find_path(GATELIGHT_HTTPLIB_HEADERS httplib.h REQUIRED)
 find_library(GATELIGHT_HTTPLIB NAMES cpp-httplib REQUIRED)

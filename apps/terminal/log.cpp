@@ -1,7 +1,6 @@
 #include "apps/terminal/log.h"
 
-#include <spdlog/sinks/stdout_color_sinks.h>
-#include <spdlog/spdlog.h>
+#include <fmt/format.h>
 
 #include <atomic>
 #include <nlohmann/json.hpp>
@@ -12,30 +11,21 @@
 namespace gatelight::apps {
 namespace {
 
-std::atomic<bool> as_json{false};
+std::atomic<bool> as_json{false}, shows_warnings{true}, shows_details{false};
 
-spdlog::logger& logger() {
-  static const std::shared_ptr<spdlog::logger> instance = [] {
-    auto made = spdlog::stderr_color_mt("gatelight");
-    made->set_pattern("%n: %^%l%$: %v");
-    return made;
-  }();
-  return *instance;
-}
-
-void log(spdlog::level::level_enum level, const char* event, const std::string& text) {
-  if (!json_messages()) {
-    // The text is never a format string: file names may hold braces.
-    logger().log(level, "{}", text);
-  } else if (logger().should_log(level)) {
+void print(const char* event, const char* word, const std::string& text) {
+  if (json_messages()) {
     print_json_line({{"event", event}, {"message", text}});
+  } else {
+    print_status(fmt::format("gatelight: {}: {}\n", word, text));
   }
 }
 
 }  // namespace
 
 void set_log_level(bool quiet, bool verbose) {
-  logger().set_level(quiet ? spdlog::level::err : verbose ? spdlog::level::info : spdlog::level::warn);
+  shows_warnings = !quiet;
+  shows_details = verbose && !quiet;
 }
 
 void set_json_messages(bool on) {
@@ -47,11 +37,11 @@ bool json_messages() {
 }
 
 void log_warning(const std::string& text) {
-  log(spdlog::level::warn, "warning", with_flags(text));
+  if (shows_warnings) print("warning", "warning", with_flags(text));
 }
 
 void log_detail(const std::string& text) {
-  log(spdlog::level::info, "detail", text);
+  if (shows_details) print("detail", "info", text);
 }
 
 }  // namespace gatelight::apps

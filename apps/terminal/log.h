@@ -1,5 +1,5 @@
 #pragma once
-// Messages on stderr, as text or as JSON lines. Only log.cpp includes spdlog, which is slow to compile.
+// Messages on stderr, as text or as JSON lines.
 
 #include <string>
 

@@ -18,7 +18,7 @@ except ImportError as error:
         raise
     raise ImportError(
         f"gatelight needs shared libraries of Debian 12 ({error}): install the packages that apps/python/README.md names, "
-        "libembree3-3 libtbb12 libopenexr-3-1-30 libopenimageio2.4 libdraco7 libmeshoptimizer2 libfmt9 libspdlog1.10"
+        "libembree3-3 libtbb12 libopenexr-3-1-30 libopenimageio2.4 libdraco7 libmeshoptimizer2 libfmt9"
     ) from None
 from ._gatelight import (
     Cache, Camera, Error, Frames, Instance, Light, Material, Mesh, Picture, Renderer, Scene, Texture, options, read,
