@@ -4,14 +4,12 @@
 #include <gtest/gtest.h>
 
 #include "base/errors.h"
-#include "tests/apps/settings/read_flags.h"
 #include "tests/support/messages.h"
 
 namespace gatelight::apps {
 namespace {
 
 using ::testing::ElementsAre;
-using tests::expect_parts;
 using tests::expect_refused_parts;
 using tests::refused_parts;
 
@@ -78,30 +76,6 @@ TEST(FrameNames, HaveThePlaceOfTheNumber) {
   EXPECT_EQ(name_in_given_folder("a/b%%/f-%d.exr", 7), "a/b%/f-7.exr");
   EXPECT_EQ(name_in_given_folder("a/shot_%d/take_2/f.exr", 7), "a/f.exr");
   EXPECT_EQ(name_in_given_folder("%d/f.exr", 7), "f.exr");
-}
-
-TEST(FrameFlags, ExcludeWhatHasNoMeaningWithThem) {
-  const auto refused = [](std::initializer_list<const char*> flags) {
-    return refused_flags({flags.begin(), flags.end()});
-  };
-  expect_parts(refused({"--fps", "25"}), {"fps", "", "no frames", "`frames`"});
-  expect_parts(refused({"--frames", "0:3", "--time", "1"}), {"time", "", "excludes `frames`"});
-  expect_parts(refused({"--frames", "0:3"}), {"output", "a.exr", "all frames", "%04d"});
-  expect_parts(refused({"--frames", "4", "--camera", "all"}), {"output", "a.exr", "all cameras", "{camera}"});
-  const auto groups = [&](std::initializer_list<const char*> flags) {
-    std::vector<const char*> all = {"--turntable", "4", "--frame-groups", "3"};
-    all.insert(all.end(), flags);
-    return refused_flags({all.begin(), all.end()});
-  };
-  expect_parts(refused({"--frame-groups", "2"}), {"frame-groups", "", "no frames", "`frames`"});
-  expect_parts(refused({"--frames", "4", "--frame-groups", "2"}), {"frame-groups", "", "fewer", "1"});
-  expect_parts(groups({"--integrator", "nrc"}), {"frame-groups", "", "'nrc'", "`integrator`"});
-  expect_parts(groups({"--denoiser", "auto"}), {"frame-groups", "", "denoised", "`temporal` off"});
-  expect_parts(groups({"--checkpoint", "state"}), {"frame-groups", "", "checkpoint", "no `checkpoint`"});
-  EXPECT_EQ(groups({"--denoiser", "auto", "--temporal", "off"}).option, "output");
-  EXPECT_EQ(refused({"--frames", "4"}).option, "") << "one frame needs no pattern";
-  EXPECT_EQ(read_flags({"--turntable", "1"}).load.time, 0.0);
-  EXPECT_EQ(read_flags({"--frames", "12:12", "--fps", "24"}).load.time, 0.0) << "the film's first frame";
 }
 
 }  // namespace

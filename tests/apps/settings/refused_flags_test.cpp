@@ -19,7 +19,75 @@ namespace {
 using tests::expect_parts;
 using tests::TemporaryFolder;
 
-TEST(RefusedFlags, CacheFlagsAreRefusedWithoutACache) {
+struct Refused {
+  const char* flags;
+  ErrorParts parts;  ///< without an option: the flags are good
+};
+
+const Refused kRefused[] = {
+    // Without a cache.
+    {"--batch 100", {"batch", "", "'path'", "`integrator` nao or nrc"}},
+    {"--integrator ao --cache-in c", {"cache-in", "", "'ao'", "`integrator`"}},
+    // Of another encoding or rule.
+    {"--integrator nrc --hash-levels 4", {"hash-levels", "", "", "`encoding` hashgrid"}},
+    {"--integrator nrc --encoding hashgrid --stack 1", {"stack", "", "", "`encoding` gate"}},
+    {"--integrator nrc --resolution-scale 2", {"resolution-scale", "", "", "`resolution` paper"}},
+    {"--integrator nrc --resolution paper --node-spacing 2",
+     {"node-spacing", "", "", "`resolution` uniform"}},
+    {"--integrator nrc --encoding hashgrid --candidates 4", {"candidates", "", "", "`encoding` gate"}},
+    {"--integrator nrc --encoding hashgrid --candidates 1", {}},
+    {"--integrator nao --encoding hashgrid --albedo-input on", {}},
+    // Beside others.
+    {"--animation walk", {"animation", "", "", "`time`"}},
+    {"--animation walk --time 0", {}},
+    {"--integrator nrc --spread-threshold 0.5", {"spread-threshold", "", "", "`query-at` spread"}},
+    {"--integrator nrc --self-training off --self-training-vertices 1",
+     {"self-training-vertices", "", "", "`self-training` STEP"}},
+    {"--integrator nrc --self-training off --self-training-full 1",
+     {"self-training-full", "", "", "`self-training` STEP"}},
+    {"--integrator nrc --self-training off --self-training-attenuation 1",
+     {"self-training-attenuation", "", "", "`self-training` STEP"}},
+    {"--integrator nrc --self-training 0 --self-training-vertices 1 --self-training-full 1 "
+     "--self-training-attenuation 1",
+     {}},
+    {"--integrator nrc --view cache --query-at gather", {"query-at", "", "", "`view` final"}},
+    {"--integrator nrc --view cache --query-at spread", {"query-at", "", "", "`view` final"}},
+    {"--resume", {"resume", "", "", "`checkpoint`"}},
+    {"--checkpoint-every 5", {"checkpoint-every", "", "", "`checkpoint`"}},
+    // Layers that would be black.
+    {"--aov albedo,training-count", {"aov", "training-count", "'path'", "`integrator`"}},
+    {"--integrator nao --aov cache-error", {"aov", "cache-error", "'nao'", "`integrator` nrc"}},
+    {"--integrator nrc --encoding hashgrid --aov training-count",
+     {"aov", "training-count", "hashgrid", "`encoding` gate"}},
+    {"--integrator nrc --encoding hashgrid --aov resolution",
+     {"aov", "resolution", "hashgrid", "`encoding` gate"}},
+    {"--integrator nrc --encoding hashgrid --aov nearest-node",
+     {"aov", "nearest-node", "hashgrid", "`encoding` gate"}},
+    // Frames.
+    {"--fps 25", {"fps", "", "no frames", "`frames`"}},
+    {"--frames 0:3 --time 1", {"time", "", "excludes `frames`"}},
+    {"--frames 0:3", {"output", "a.exr", "all frames", "%04d"}},
+    {"--frames 4 --camera all", {"output", "a.exr", "all cameras", "{camera}"}},
+    {"--frames 4", {}},
+    {"--frame-groups 2", {"frame-groups", "", "no frames", "`frames`"}},
+    {"--frames 4 --frame-groups 2", {"frame-groups", "", "fewer", "1"}},
+    {"--turntable 4 --frame-groups 3 --integrator nrc", {"frame-groups", "", "'nrc'", "`integrator`"}},
+    {"--turntable 4 --frame-groups 3 --denoiser auto", {"frame-groups", "", "denoised", "`temporal` off"}},
+    {"--turntable 4 --frame-groups 3 --checkpoint state",
+     {"frame-groups", "", "checkpoint", "no `checkpoint`"}},
+    {"--turntable 4 --frame-groups 3 --denoiser auto --temporal off", {"output"}},
+};
+
+TEST(RefusedFlags, NameTheFlagAndWhatItNeeds) {
+  for (const Refused& row : kRefused) {
+    SCOPED_TRACE(row.flags);
+    const ErrorParts parts = refused_flags(words_of(row.flags));
+    EXPECT_EQ(parts.option, row.parts.option);
+    if (!row.parts.option.empty()) expect_parts(parts, row.parts);
+  }
+}
+
+TEST(RefusedFlags, CacheFlagsAreMarked) {
   EXPECT_GT(cache_names().size(), 40u);
   for (const char* name : {"cache-in", "cache-out", "train-steps", "device", "cache-memory"}) {
     EXPECT_TRUE(cache_names().contains(name)) << name;
@@ -27,94 +95,36 @@ TEST(RefusedFlags, CacheFlagsAreRefusedWithoutACache) {
   for (const char* name : {"spp", "integrator", "isa", "checkpoint"}) {
     EXPECT_FALSE(cache_names().contains(name)) << name;
   }
-  expect_parts(refused_flags({"--batch", "100"}), {"batch", "", "'path'", "`integrator` nao or nrc"});
-  expect_parts(refused_flags({"--integrator", "ao", "--cache-in", "c"}),
-               {"cache-in", "", "'ao'", "`integrator`"});
-  expect_parts(refused_flags({"--aov", "albedo,training-count"}),
-               {"aov", "training-count", "'path'", "`integrator`"});
 }
 
-TEST(RefusedFlags, FlagsOfAnotherEncodingOrRuleAreRefused) {
-  expect_parts(refused_flags(with_cache({"--hash-levels", "4"})),
-               {"hash-levels", "", "", "`encoding` hashgrid"});
-  expect_parts(refused_flags(with_cache({"--encoding", "hashgrid", "--stack", "1"})),
-               {"stack", "", "", "`encoding` gate"});
-  expect_parts(refused_flags(with_cache({"--resolution-scale", "2"})),
-               {"resolution-scale", "", "", "`resolution` paper"});
-  expect_parts(refused_flags(with_cache({"--resolution", "paper", "--node-spacing", "2"})),
-               {"node-spacing", "", "", "`resolution` uniform"});
-  expect_parts(refused_flags(with_cache({"--encoding", "hashgrid", "--candidates", "4"})),
-               {"candidates", "", "", "`encoding` gate"});
-  EXPECT_EQ(refused_flags(with_cache({"--encoding", "hashgrid", "--candidates", "1"})).option, "");
-  // A preset's values are not flags.
+TEST(RefusedFlags, ThoseOfAPresetAreAdapted) {
   const RenderSettings preset = read_flags({"--preset", "paper-nrc", "--encoding", "hashgrid"});
   EXPECT_EQ(preset.render.cache.training.feature_step, neural::FeatureStep::per_node);
   EXPECT_EQ(preset.render.cache.candidates, 1);
   EXPECT_EQ(read_flags({"--preset", "paper-nrc"}).render.cache.candidates, 16);
 }
 
-TEST(RefusedFlags, AnAnimationNeedsATime) {
-  expect_parts(refused_flags({"--animation", "walk"}), {"animation", "", "", "`time`"});
-  EXPECT_EQ(refused_flags({"--animation", "walk", "--time", "0"}).option, "");
+TEST(RefusedFlags, ThoseOfRadianceAreNeitherWithOcclusionNorInItsRecipe) {
+  const auto recipe = resolved_options(read_flags({"--integrator", "nao"}));
+  for (const char* flag : {"--cache-holds all", "--query-at primary", "--view final", "--self-training 9",
+                           "--self-training-vertices 5", "--self-training-full 0.5", "--train-path-length 4",
+                           "--self-training-attenuation 0.5", "--cache-roughness 0.25",
+                           "--spread-threshold 0.5", "--albedo-input on", "--direction-input on"}) {
+    const std::string name = words_of(flag).front().substr(2);
+    expect_parts(refused_flags(words_of("--integrator nao", {}, words_of(flag))),
+                 {name, "", "", "`integrator` nrc"});
+    EXPECT_FALSE(recipe.contains(name)) << name;
+  }
+}
+
+TEST(RefusedFlags, OthersAreCompleted) {
   EXPECT_EQ(read_flags({"--time", "-2.5"}).load.time, -2.5);
   EXPECT_FALSE(read_flags({}).load.time);
-}
-
-TEST(RefusedFlags, RadianceFlagsAreRefusedWithOcclusion) {
-  const std::vector<Words> cases = {
-      {"--cache-holds", "all"},
-      {"--query-at", "primary"},
-      {"--view", "final"},
-      {"--self-training", "9"},
-      {"--self-training-vertices", "5"},
-      {"--self-training-full", "0.5"},
-      {"--train-path-length", "4"},
-      {"--self-training-attenuation", "0.5"},
-      {"--cache-roughness", "0.25"},
-      {"--spread-threshold", "0.5"},
-      {"--albedo-input", "on"},
-      {"--direction-input", "on"},
-  };
-  for (Words words : cases) {
-    const std::string flag = words.front();
-    words.insert(words.begin(), {"--integrator", "nao"});
-    expect_parts(refused_flags(words), {flag.substr(2), "", "", "`integrator` nrc"});
-    EXPECT_FALSE(resolved_options(read_flags({"--integrator", "nao"})).contains(flag.substr(2))) << flag;
-  }
-  EXPECT_EQ(refused_flags({"--integrator", "nao", "--encoding", "hashgrid", "--albedo-input", "on"}).option,
-            "");
-}
-
-TEST(RefusedFlags, FlagsWithoutEffectBesideOthersAreRefused) {
-  expect_parts(refused_flags(with_cache({"--spread-threshold", "0.5"})),
-               {"spread-threshold", "", "", "`query-at` spread"});
-  for (const char* flag :
-       {"--self-training-vertices", "--self-training-full", "--self-training-attenuation"}) {
-    expect_parts(refused_flags(with_cache({"--self-training", "off", flag, "1"})),
-                 {flag + 2, "", "", "`self-training` STEP"});
-    EXPECT_EQ(refused_flags(with_cache({"--self-training", "0", flag, "1"})).option, "");
-  }
-  for (const char* place : {"gather", "spread"}) {
-    expect_parts(refused_flags(with_cache({"--view", "cache", "--query-at", place})),
-                 {"query-at", "", "", "`view` final"});
-  }
+  EXPECT_EQ(read_flags({"--turntable", "1"}).load.time, 0.0);
+  EXPECT_EQ(read_flags({"--frames", "12:12", "--fps", "24"}).load.time, 0.0) << "the film's first frame";
   // The settings say where the bare answer is queried.
   EXPECT_EQ(read_cache({"--view", "cache"}).query_at, renderer::QueryAt::primary);
   EXPECT_EQ(read_cache({"--view", "cache", "--query-at", "none"}).query_at, renderer::QueryAt::none);
-}
-
-TEST(RefusedFlags, LayersThatWouldBeBlackAreRefused) {
-  expect_parts(refused_flags({"--integrator", "nao", "--aov", "cache-error"}),
-               {"aov", "cache-error", "'nao'", "`integrator` nrc"});
-  for (const char* layer : {"training-count", "resolution", "nearest-node"}) {
-    expect_parts(refused_flags(with_cache({"--encoding", "hashgrid", "--aov", layer})),
-                 {"aov", layer, "hashgrid", "`encoding` gate"});
-  }
-}
-
-TEST(RefusedFlags, CheckpointFlagsNeedAFile) {
-  expect_parts(refused_flags({"--resume"}), {"resume", "", "", "`checkpoint`"});
-  expect_parts(refused_flags({"--checkpoint-every", "5"}), {"checkpoint-every", "", "", "`checkpoint`"});
   const renderer::CheckpointOptions options =
       read_flags({"--resume", "--checkpoint-every", "5", "--checkpoint", "c.gatelight"}).render.checkpoint;
   EXPECT_EQ(options.file, "c.gatelight");

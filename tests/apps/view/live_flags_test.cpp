@@ -50,10 +50,5 @@ TEST(LiveFlags, OfTheCommandLineAreWordsAgain) {
   EXPECT_THAT(given_words(settings), ElementsAre("--spp=7", "--show-hidden", "--lights=lamp=2;sun=off"));
 }
 
-TEST(LiveFlags, AreQuotedForAShell) {
-  EXPECT_EQ(render_command("it's.glb", {}, {{"lights", "lamp=2;sun=off"}}),
-            R"(gatelight render 'it'\''s.glb' '--lights=lamp=2;sun=off')");
-}
-
 }  // namespace
 }  // namespace gatelight::apps
