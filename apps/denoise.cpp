@@ -1,12 +1,9 @@
-#include <algorithm>
 #include <memory>
-#include <utility>
 
 #include "apps/denoise_run.h"
 #include "apps/settings/flags.h"
 #include "apps/settings/frame_range.h"
 #include "apps/settings/option_table.h"
-#include "apps/settings/picture_options.h"
 #include "apps/subcommand.h"
 
 namespace gatelight::apps {
@@ -32,21 +29,20 @@ Examples:
   gatelight denoise blender.exr -o finished.exr --normal-layer ViewLayer.Normal
   gatelight denoise in-%04d.exr -o out-%04d.exr)";
 
+bool is_of_denoise(const Option& option) {
+  return option.marks.of_denoise || option.marks.stage == OptionStage::output || option.name == "output" ||
+         option.name == "progress" || option.name == "quiet";
+}
+
 std::vector<Option> denoise_table(DenoiseSettings& settings) {
-  std::vector<Option> table;
+  std::vector<Option> table = option_table(settings);
+  std::erase_if(table, [](const Option& option) { return !is_of_denoise(option); });
   table.push_back(
-      positional("INPUT", settings.input, "Picture, .exr; with %04d, #### or {frame} in its name: frames"));
-  OptionGroup output{table, "Output"};
-  add_picture_files(output, settings.outputs, settings.image, settings.exposure);
-  output.add(progress_option(settings.progress));
-  output.add(toggle("quiet", settings.quiet, "Print errors only"));
+      positional("INPUT", settings.scene, "Picture, .exr; with %04d, #### or {frame} in its name: frames"));
   OptionGroup input{table, "Layers of the input"};
   input.add(read_by(
-      "frames", settings.frames, "A:B[:STEP]", "Frames to denoise (default: all that exist)",
-      [](const auto&) { return OptionValue(); },
-      [](const std::string& option, const std::string& text) {
-        return parse_frames(option, text).numbers();
-      }));
+      "frames", settings.frames.range, "A:B[:STEP]", "Frames to denoise (default: all that exist)",
+      [](const auto&) { return OptionValue(); }, parse_frames));
   const auto add_layer = [&](const char* name, std::string& member, const char* help) {
     input.add(any_word(name, member, "NAME", help));
   };
@@ -56,9 +52,6 @@ std::vector<Option> denoise_table(DenoiseSettings& settings) {
             "Layer with the albedo of visible surfaces, or none (default: found by its usual names)");
   add_layer("normal-layer", settings.layers.normal,
             "Layer with the normals of visible surfaces, or none (default: found by its usual names)");
-  for (Option& option : picture_options(settings.render)) {
-    if (option.marks.of_denoise) table.push_back(std::move(option));
-  }
   return table;
 }
 
@@ -70,7 +63,8 @@ Subcommand add_denoise_command(CLI::App& root) {
   add_flags(*app, denoise_table(*settings));
   return {.app = app, .run = [app, settings] {
             const std::vector<std::string> given = given_names(*app);
-            return denoise(*settings, {given.begin(), given.end()});
+            settings->given = {given.begin(), given.end()};
+            return denoise(*settings);
           }};
 }
 

@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <utility>
 
 #include "apps/job/finished_picture.h"
@@ -21,7 +22,6 @@
 #include "apps/settings/flags.h"
 #include "apps/settings/frame_range.h"
 #include "apps/settings/option_table.h"
-#include "apps/settings/picture_options.h"
 #include "apps/settings/picture_output.h"
 #include "apps/settings/unused_flags.h"
 #include "apps/terminal/errors.h"
@@ -45,27 +45,19 @@ using nlohmann::ordered_json;
 using renderer::LayersToDenoise;
 
 /// Sets the options of finishing the picture from its recipe, where no flag sets them.
-void apply_recipe(const renderer::Picture& picture, const std::set<std::string>& given,
-                  DenoiseSettings& settings) {
+void apply_recipe(const renderer::Picture& picture, DenoiseSettings& settings) {
   const ordered_json recipe = recipe_options(picture);
   if (!recipe.is_object()) return;
-  const auto read = [&](Option& option) {
-    if (given.contains(option.name) || !recipe.contains(option.name)) return;
+  for (const Option& option : option_table(settings)) {
+    const bool shows =
+        option.name == "exposure" || option.name == "tonemap" || option.name == "white-balance";
+    if (!shows && (!option.marks.of_denoise || option.marks.in_recipe != InRecipe::always)) continue;
+    if (settings.given.contains(option.name) || !recipe.contains(option.name)) continue;
     try {
       option.read(flag_text(recipe[option.name]));
     } catch (const BadOption& error) {
-      throw InputError(fmt::format("the recipe of '{}': {}", settings.input, error.what()));
+      throw InputError(fmt::format("the recipe of '{}': {}", settings.scene, error.what()));
     }
-  };
-  for (Option& option : picture_options(settings.render)) {
-    if (option.marks.of_denoise && option.marks.in_recipe == InRecipe::always) read(option);
-  }
-  std::vector<Option> files;
-  OptionGroup group{files, ""};
-  std::vector<std::string> outputs;
-  add_picture_files(group, outputs, settings.image, settings.exposure);
-  for (Option& option : files) {
-    if (option.name == "exposure" || option.name == "tonemap" || option.name == "white-balance") read(option);
   }
 }
 
@@ -96,10 +88,8 @@ std::string text_of_choice(const renderer::Picture& picture, const std::vector<L
 
 class DenoiseRun {
  public:
-  DenoiseRun(const DenoiseSettings& settings, const std::set<std::string>& given)
-      : whole_(settings),
-        given_(given),
-        progress_(settings.quiet ? ProgressMode::none : settings.progress, 1.0) {}
+  explicit DenoiseRun(const DenoiseSettings& settings)
+      : whole_(settings), progress_(settings.quiet ? ProgressMode::none : settings.progress, 1.0) {}
 
   int run() {
     check();
@@ -133,13 +123,13 @@ class DenoiseRun {
 
  private:
   void check() {
-    if (renderer::image_format(whole_.input) != renderer::ImageFormat::exr)
-      throw BadOption({"INPUT", whole_.input, "", "an .exr file"});
-    if (whole_.frames || has_frame_place(whole_.input)) find_frames();
+    if (renderer::image_format(whole_.scene) != renderer::ImageFormat::exr)
+      throw BadOption({"INPUT", whole_.scene, "", "an .exr file"});
+    if (whole_.frames.range || has_frame_place(whole_.scene)) find_frames();
     check_stdout(whole_.outputs);
     FileNames names;
     const std::vector<DenoiseSettings> all = pictures();
-    for (const DenoiseSettings& picture : all) names.read("INPUT", picture.input);
+    for (const DenoiseSettings& picture : all) names.read("INPUT", picture.scene);
     for (const std::string& output : whole_.outputs)
       frames_.empty() ? refuse_frame_place("output", output) : require_frame_place("output", output);
     for (const DenoiseSettings& picture : all) {
@@ -151,12 +141,12 @@ class DenoiseRun {
 
   /// The frames, of which each has its file.
   void find_frames() {
-    require_frame_place("INPUT", whole_.input);
-    frames_ = whole_.frames ? *whole_.frames : existing_frames(whole_.input);
+    require_frame_place("INPUT", whole_.scene);
+    frames_ = whole_.frames.range ? whole_.frames.range->numbers() : existing_frames(whole_.scene);
     if (frames_.empty())
-      throw InputError(fmt::format("cannot read '{}': there is no such file", whole_.input));
+      throw InputError(fmt::format("cannot read '{}': there is no such file", whole_.scene));
     for (const int frame : frames_) {
-      const std::string file = name_of_frame(whole_.input, frame);
+      const std::string file = name_of_frame(whole_.scene, frame);
       if (std::error_code error; !std::filesystem::exists(file, error))
         throw InputError(fmt::format("cannot read '{}': there is no such file", file));
     }
@@ -164,7 +154,7 @@ class DenoiseRun {
 
   DenoiseSettings settings_of(int frame) const {
     DenoiseSettings settings = whole_;
-    settings.input = name_of_frame(whole_.input, frame);
+    settings.scene = name_of_frame(whole_.scene, frame);
     for (std::string& output : settings.outputs) output = name_of_frame(output, frame);
     return settings;
   }
@@ -183,7 +173,7 @@ class DenoiseRun {
     for (const int frame : sampled_frames(frames_)) {
       DenoiseSettings settings = settings_of(frame);
       const renderer::Picture picture = read(settings);
-      apply_recipe(picture, given_, settings);
+      apply_recipe(picture, settings);
       if (settings.exposure) {
         whole_.exposure = settings.exposure;
         return;
@@ -195,11 +185,11 @@ class DenoiseRun {
   }
 
   renderer::Picture read(const DenoiseSettings& settings) const {
-    renderer::Picture picture = renderer::read_image(settings.input);
+    renderer::Picture picture = renderer::read_image(settings.scene);
     const bool has_samples = picture.find("raw") || renderer::has_denoising_layers(picture);
     if (picture.metadata.contains("denoiser") && !has_samples && settings.layers.color.empty())
       throw InputError(fmt::format("'{}' is denoised already, expected the layers of --aov denoising or raw",
-                                   settings.input));
+                                   settings.scene));
     return picture;
   }
 
@@ -207,7 +197,7 @@ class DenoiseRun {
   bool finish(DenoiseSettings settings, renderer::Denoiser& denoiser, tbb::task_arena& arena) {
     progress_.phase("load");
     renderer::Picture picture = read(settings);
-    apply_recipe(picture, given_, settings);
+    apply_recipe(picture, settings);
     const renderer::RenderOptions& o = settings.render;
     try {
       const std::vector<LayersToDenoise> layers = renderer::layers_to_denoise(picture, settings.layers);
@@ -218,10 +208,10 @@ class DenoiseRun {
       });
       if (!denoised) return false;
       denoised->metadata["denoiser"] = name_;
-      settings.image.edited = edited_exr(settings.input, *denoised, layers);
+      settings.image.edited = edited_exr(settings.scene, *denoised, layers);
       arena.execute([&] { write(*denoised, settings); });
     } catch (const InputError& error) {
-      throw InputError(fmt::format("'{}' {}", settings.input, error.what()));
+      throw InputError(fmt::format("'{}' {}", settings.scene, error.what()));
     }
     return true;
   }
@@ -251,7 +241,6 @@ class DenoiseRun {
   }
 
   DenoiseSettings whole_;
-  std::set<std::string> given_;
   std::vector<int> frames_;  ///< empty: a single picture
   std::string name_, choice_;
   Clock::time_point start_ = Clock::now();
@@ -260,8 +249,8 @@ class DenoiseRun {
 
 }  // namespace
 
-int denoise(const DenoiseSettings& settings, const std::set<std::string>& given) {
-  return DenoiseRun(settings, given).run();
+int denoise(const DenoiseSettings& settings) {
+  return DenoiseRun(settings).run();
 }
 
 std::vector<int> existing_frames(const std::string& name) {

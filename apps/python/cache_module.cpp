@@ -17,7 +17,7 @@ scene::Scene triangles_of(py::handle given) {
     throw BadOption({"scene", "", "is not a scene", "a gatelight.Scene or a gatelight.Mesh"});
   const auto part = given.cast<MeshPart>();
   scene::Scene scene;
-  scene.meshes.push_back(part.scene->source.meshes[part.index]);
+  scene.meshes.push_back(*part);
   scene.instances.emplace_back().mesh = 0;
   return scene;
 }

@@ -25,7 +25,7 @@ py::object get_value(const ScenePointer&, const scene::AlphaMode& value) {
 }
 py::object get_value(const ScenePointer& scene, const scene::TextureSlot& value) {
   if (!value) return py::none();
-  return py::cast(TexturePart{{scene, static_cast<std::size_t>(value.texture)}});
+  return py::cast(TexturePart{scene, static_cast<std::size_t>(value.texture)});
 }
 
 void set_value(float& member, const NewValue& given) {
@@ -51,11 +51,10 @@ void set_value(scene::AlphaMode& member, const NewValue& given) {
 void set_value(scene::TextureSlot& member, const NewValue& given) {
   if (given.value.is_none()) {
     member = {};
-    return;
+  } else {
+    member = {.texture = index_of<TexturePart>(given.scene, given.name, given.value, "texture",
+                                               "one of scene.add_texture or None")};
   }
-  if (!py::isinstance<TexturePart>(given.value) || given.value.cast<TexturePart>().scene != given.scene)
-    throw BadOption({given.name, "", "is not a texture of this scene", "one of scene.add_texture or None"});
-  member = {.texture = static_cast<int>(given.value.cast<TexturePart>().index)};
 }
 
 }  // namespace gatelight::python

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "apps/python/scene_parts.h"
@@ -44,10 +45,12 @@ void set_value(scene::TextureSlot& member, const NewValue& given);
 
 template <class Object>
 struct Field {
+  using Get = std::function<pybind11::object(const ScenePointer&, const Object&)>;
+  using Set = std::function<void(const ScenePointer&, Object&, pybind11::handle)>;
   const char* name;
   const char* help;
-  std::function<pybind11::object(const ScenePointer&, const Object&)> get;
-  std::function<void(const ScenePointer&, Object&, pybind11::handle)> set;  ///< throws BadOption
+  Get get;
+  Set set;  ///< throws BadOption
 
   /// A plain member. `range`: of numbers.
   template <class Value>
@@ -60,7 +63,9 @@ struct Field {
         set([its_name, member, range](const ScenePointer& scene, Object& object, pybind11::handle value) {
           set_value(object.*member, {its_name, value, range, scene});
         }) {}
-  /// One that has another form in Python.
+  /// One that has another form in Python, which may depend on the scene.
+  Field(const char* its_name, Get its_get, Set its_set, const char* its_help)
+      : name(its_name), help(its_help), get(std::move(its_get)), set(std::move(its_set)) {}
   Field(const char* its_name, std::function<pybind11::object(const Object&)> get_of,
         std::function<void(Object&, pybind11::handle)> set_of, const char* its_help)
       : name(its_name),
@@ -87,23 +92,25 @@ void set_members(const std::vector<Field<Object>>& fields, const char* what, con
   }
 }
 
-/// Adds the members of the objects in a list of the scene, and their index.
+/// Adds a class of parts that have a name: their text, their index and the members of the table.
 template <class PartOf, class Object>
-void add_fields(pybind11::class_<PartOf>& type, const std::vector<Field<Object>>& fields,
-                std::vector<Object> scene::Scene::*list) {
+pybind11::class_<PartOf> add_part_class(pybind11::module_& module, const char* name, const char* about,
+                                        const std::vector<Field<Object>>& fields) {
+  pybind11::class_<PartOf> type(module, name, about);
+  type.def("__repr__", [name](const PartOf& part) {
+    return fmt::format("<gatelight.{} {} '{}'>", name, part.index, part->name);
+  });
   type.def_property_readonly("index", [](const PartOf& part) { return part.index; });
   for (const Field<Object>& field : fields) {
     type.def_property(
-        field.name,
-        [&field, list](const PartOf& part) {
-          return field.get(part.scene, (part.scene->source.*list)[part.index]);
-        },
-        [&field, list](const PartOf& part, const pybind11::object& value) {
-          field.set(part.scene, (part.scene->source.*list)[part.index], value);
+        field.name, [&field](const PartOf& part) { return field.get(part.scene, *part); },
+        [&field](const PartOf& part, const pybind11::object& value) {
+          field.set(part.scene, *part, value);
           part.scene->change();
         },
         field.help);
   }
+  return type;
 }
 
 }  // namespace gatelight::python

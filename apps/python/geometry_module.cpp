@@ -19,70 +19,62 @@ namespace py = pybind11;
 constexpr renderer::Choice<scene::Wrap> kWraps[] = {{"repeat", scene::Wrap::repeat},
                                                     {"mirror", scene::Wrap::mirrored_repeat},
                                                     {"clamp", scene::Wrap::clamp_to_edge}};
-constexpr int kLargestTexture = 65536;
+using scene::Mesh;
 
-scene::Mesh& get(const MeshPart& part) {
-  return part.scene->source.meshes[part.index];
-}
-scene::Instance& get(const InstancePart& part) {
-  return part.scene->source.instances[part.index];
-}
+constexpr int kLargestTexture = 65536;
 
 [[noreturn]] void fail(const char* name, const std::string& problem, const std::string& expected) {
   throw BadOption({name, "", problem, expected});
 }
 
-/// Copies an array over rows in place: views of them stay valid.
 template <class Rows>
-void fill(const char* name, py::handle values, Rows& rows_to) {
-  constexpr auto columns = static_cast<py::ssize_t>(sizeof(rows_to[0]) / sizeof(float));
-  const Array<float> array = rows<float>(name, values, columns);
-  if (static_cast<std::size_t>(array.shape(0)) != rows_to.size())
+constexpr py::ssize_t kColumns = static_cast<py::ssize_t>(sizeof(typename Rows::value_type) / sizeof(float));
+
+/// `count` rows of an array, or none of None.
+template <class Rows>
+Rows read_rows(const char* name, py::handle values, std::size_t count) {
+  if (values.is_none()) return {};
+  const Array<float> array = rows<float>(name, values, kColumns<Rows>);
+  if (static_cast<std::size_t>(array.shape(0)) != count)
     throw BadOption(
-        {name, shape_of(array), "is the array's shape", fmt::format("({}, {})", rows_to.size(), columns)});
-  std::memcpy(static_cast<void*>(rows_to.data()), array.data(), rows_to.size() * sizeof(rows_to[0]));
-}
-
-template <class Rows>
-void read_rows(const char* name, py::handle values, std::size_t count, Rows& rows_to) {
-  if (values.is_none()) return;
+        {name, shape_of(array), "is the array's shape", fmt::format("({}, {})", count, kColumns<Rows>)});
   Rows read(count);
-  fill(name, values, read);
-  rows_to = std::move(read);
+  std::memcpy(static_cast<void*>(read.data()), array.data(), count * sizeof(read[0]));
+  return read;
 }
 
-/// The texture coordinates and normals are repaired later, as those of a file are.
-void expect_finite(const scene::Mesh& mesh) {
+/// Texture coordinates and normals are repaired later, as those of a file are.
+auto read_positions(const char* name, py::handle values, std::size_t count) {
+  Mesh mesh;
+  mesh.positions = read_rows<decltype(mesh.positions)>(name, values, count);
   const ErrorParts wrong = scene::wrong_position(mesh);
-  if (!wrong.problem.empty()) fail("positions", wrong.problem, wrong.expected);
+  if (!wrong.problem.empty()) fail(name, wrong.problem, wrong.expected);
+  return mesh.positions;
 }
 
 /// (n, 3) or (n, 4); three are opaque.
-void read_colors(py::handle values, std::size_t count, std::vector<Vec4>& colors) {
-  if (values.is_none()) return;
+std::vector<Vec4> read_colors(const char* name, py::handle values, std::size_t count) {
+  std::vector<Vec4> colors;
   const py::array given = py::array::ensure(values);
   PyErr_Clear();
   if (given && given.ndim() == 2 && given.shape(1) == 4) {
-    read_rows("colors", values, count, colors);
+    colors = read_rows<std::vector<Vec4>>(name, values, count);
   } else {
-    std::vector<Vec3> opaque;
-    read_rows("colors", values, count, opaque);
-    colors.clear();
-    for (const Vec3& c : opaque) colors.emplace_back(c.x(), c.y(), c.z(), 1.0f);
+    for (const Vec3& c : read_rows<std::vector<Vec3>>(name, values, count))
+      colors.emplace_back(c.x(), c.y(), c.z(), 1.0f);
   }
   for (std::size_t i = 0; i < colors.size(); ++i) {
     const Vec4& c = colors[i];
     if (c.allFinite() && c.minCoeff() >= 0.0f) continue;
-    fail("colors", fmt::format("row {} is ({}, {}, {}, {})", i, c.x(), c.y(), c.z(), c.w()),
+    fail(name, fmt::format("row {} is ({}, {}, {}, {})", i, c.x(), c.y(), c.z(), c.w()),
          "finite numbers, not negative");
   }
+  return colors;
 }
 
 int material_index(const ScenePointer& scene, py::handle material) {
   if (material.is_none()) return -1;
-  if (!py::isinstance<MaterialPart>(material) || material.cast<MaterialPart>().scene != scene)
-    fail("material", "is not a material of this scene", "one of scene.materials or None");
-  return static_cast<int>(material.cast<MaterialPart>().index);
+  return index_of<MaterialPart>(scene, "material", material, "material", "one of scene.materials or None");
 }
 
 void place(scene::Instance& instance, const Affine& transform) {
@@ -91,83 +83,51 @@ void place(scene::Instance& instance, const Affine& transform) {
 }
 
 template <class Rows>
-py::object view_of(const MeshPart& part, const Rows& values, py::ssize_t columns) {
+py::object view_of(const ScenePointer& scene, const Rows& values) {
   if (values.empty()) return py::none();
-  return view(values.data()->data(), static_cast<py::ssize_t>(values.size()), columns, py::cast(part.scene));
+  return view(values.data()->data(), static_cast<py::ssize_t>(values.size()), kColumns<Rows>,
+              py::cast(scene));
 }
 
-template <class Rows>
-void replace(const MeshPart& part, const char* name, Rows& values, const py::object& given) {
-  const std::size_t count = get(part).positions.size();
-  if (values.empty()) {
-    read_rows(name, given, count, values);
-  } else {
-    fill(name, given, values);
-  }
-  part.scene->change();
+/// Rows that `read` makes of the name, a value of Python and their number. Views of them stay valid.
+template <class Rows, class Read>
+Field<Mesh> rows_field(const char* name, Rows Mesh::*member, Read read, const char* help) {
+  return {name,
+          [member](const ScenePointer& scene, const Mesh& mesh) { return view_of(scene, mesh.*member); },
+          [name, member, read](const ScenePointer&, Mesh& mesh, py::handle given) {
+            Rows& own = mesh.*member;
+            Rows next = read(name, given, mesh.positions.size());
+            if (own.empty()) {
+              own = std::move(next);
+            } else if (own.size() == next.size()) {
+              std::copy(next.begin(), next.end(), own.begin());
+            } else {
+              fail(name, "None would leave views without their memory", "an array");
+            }
+          },
+          help};
 }
 
-void add_mesh_class(py::module_& module) {
-  py::class_<MeshPart> mesh(module, "Mesh",
-                            "Triangles of one material. Arrays that are read are views without a copy.");
-  mesh.def("__repr__", [](const MeshPart& part) {
-    return fmt::format("<gatelight.Mesh '{}', {} triangles>", get(part).name, get(part).triangles.size());
-  });
-  mesh.def_property_readonly("index", [](const MeshPart& part) { return part.index; });
-  mesh.def_property(
-      "name", [](const MeshPart& part) { return get(part).name; },
-      [](const MeshPart& part, const std::string& name) { get(part).name = name; });
-  mesh.def_property(
-      "positions", [](const MeshPart& part) { return view_of(part, get(part).positions, 3); },
-      [](const MeshPart& part, const py::object& given) {
-        scene::Mesh next;
-        next.positions.resize(get(part).positions.size());
-        fill("positions", given, next.positions);
-        expect_finite(next);
-        std::copy(next.positions.begin(), next.positions.end(), get(part).positions.begin());
-        part.scene->change();
-      },
-      "(n, 3) float32, metres; a new array has as many rows");
-  mesh.def_property(
-      "normals", [](const MeshPart& part) { return view_of(part, get(part).normals, 3); },
-      [](const MeshPart& part, const py::object& given) {
-        replace(part, "normals", get(part).normals, given);
-      },
-      "(n, 3) float32, or None: flat");
-  mesh.def_property(
-      "uvs", [](const MeshPart& part) { return view_of(part, get(part).uv0, 2); },
-      [](const MeshPart& part, const py::object& given) { replace(part, "uvs", get(part).uv0, given); },
-      "(n, 2) float32, or None");
-  mesh.def_property(
-      "colors", [](const MeshPart& part) { return view_of(part, get(part).colors, 4); },
-      [](const MeshPart& part, const py::object& given) {
-        std::vector<Vec4> colors;
-        read_colors(given, get(part).positions.size(), colors);
-        std::vector<Vec4>& own = get(part).colors;
-        if (own.size() == colors.size()) {
-          std::copy(colors.begin(), colors.end(), own.begin());  // views of them stay valid
-        } else if (own.empty()) {
-          own = std::move(colors);
-        } else {
-          fail("colors", "None would leave views without their memory", "an array");
-        }
-        part.scene->change();
-      },
-      "(n, 4) float32, linear, that multiply the base colour, or None; (n, 3) are opaque");
-  mesh.def_property_readonly(
-      "triangles", [](const MeshPart& part) { return view_of(part, get(part).triangles, 3); },
-      "(m, 3) uint32");
-  mesh.def_property(
-      "material",
-      [](const MeshPart& part) -> py::object {
-        const int index = get(part).material;
-        if (index < 0) return py::none();
-        return py::cast(MaterialPart{{part.scene, static_cast<std::size_t>(index)}});
-      },
-      [](const MeshPart& part, const py::object& material) {
-        get(part).material = material_index(part.scene, material);
-        part.scene->change();
-      });
+const std::vector<Field<Mesh>>& mesh_fields() {
+  static const std::vector<Field<Mesh>> fields = {
+      {"name", &Mesh::name, {}, ""},
+      rows_field("positions", &Mesh::positions, read_positions,
+                 "(n, 3) float32, metres; a new array has as many rows"),
+      rows_field("normals", &Mesh::normals, read_rows<std::vector<Vec3>>, "(n, 3) float32, or None: flat"),
+      rows_field("uvs", &Mesh::uv0, read_rows<std::vector<Vec2>>, "(n, 2) float32, or None"),
+      rows_field("colors", &Mesh::colors, read_colors,
+                 "(n, 4) float32, linear, that multiply the base colour, or None; (n, 3) are opaque"),
+      {"material",
+       [](const ScenePointer& scene, const Mesh& mesh) -> py::object {
+         if (mesh.material < 0) return py::none();
+         return py::cast(MaterialPart{scene, static_cast<std::size_t>(mesh.material)});
+       },
+       [](const ScenePointer& scene, Mesh& mesh, py::handle material) {
+         mesh.material = material_index(scene, material);
+       },
+       ""},
+  };
+  return fields;
 }
 
 const std::vector<Field<scene::Instance>>& instance_fields() {
@@ -181,61 +141,41 @@ const std::vector<Field<scene::Instance>>& instance_fields() {
   return fields;
 }
 
-void add_instance_class(py::module_& module) {
-  py::class_<InstancePart> instance(module, "Instance", "A mesh in the world.");
-  instance.def("__repr__", [](const InstancePart& part) {
-    return fmt::format("<gatelight.Instance '{}'>", get(part).name);
-  });
-  instance.def_property_readonly("name", [](const InstancePart& part) { return get(part).name; });
-  instance.def_property_readonly("mesh", [](const InstancePart& part) {
-    return MeshPart{{part.scene, static_cast<std::size_t>(get(part).mesh)}};
-  });
-  add_fields(instance, instance_fields(), &scene::Scene::instances);
-}
-
 }  // namespace
 
 MeshPart make_mesh(const ScenePointer& scene, py::handle positions, py::handle triangles, py::handle normals,
                    py::handle uvs, py::handle material, const std::string& name, py::handle colors) {
-  scene::Mesh mesh;
+  Mesh mesh;
   mesh.name = name;
   const auto vertices = static_cast<std::size_t>(rows<float>("positions", positions, 3).shape(0));
-  mesh.positions.resize(vertices);
-  fill("positions", positions, mesh.positions);
-  expect_finite(mesh);
+  mesh.positions = read_positions("positions", positions, vertices);
   const Array<std::uint32_t> indices = rows<std::uint32_t>("triangles", triangles, 3);
   if (indices.shape(0) == 0) fail("triangles", "is empty", "a triangle");
   mesh.triangles.resize(static_cast<std::size_t>(indices.shape(0)));
   std::memcpy(mesh.triangles.data(), indices.data(), mesh.triangles.size() * sizeof(mesh.triangles[0]));
   const ErrorParts wrong = scene::wrong_index(mesh.triangles, vertices);
   if (!wrong.problem.empty()) fail("triangles", wrong.problem, wrong.expected);
-  read_rows("normals", normals, vertices, mesh.normals);
-  read_rows("uvs", uvs, vertices, mesh.uv0);
-  read_colors(colors, vertices, mesh.colors);
+  mesh.normals = read_rows<std::vector<Vec3>>("normals", normals, vertices);
+  mesh.uv0 = read_rows<std::vector<Vec2>>("uvs", uvs, vertices);
+  mesh.colors = read_colors("colors", colors, vertices);
   mesh.material = material_index(scene, material);
   scene->own_meshes.resize(scene->source.meshes.size(), 0);
-  scene->source.meshes.push_back(std::move(mesh));
   scene->own_meshes.push_back(1);
-  scene->change();
-  return {{scene, scene->source.meshes.size() - 1}};
+  return MeshPart::add(scene, std::move(mesh));
 }
 
 InstancePart make_instance(const ScenePointer& scene, py::handle mesh, py::handle matrix,
                            const std::string& name) {
-  if (!py::isinstance<MeshPart>(mesh) || mesh.cast<MeshPart>().scene != scene)
-    fail("mesh", "is not a mesh of this scene", "one of scene.meshes");
   scene::Instance instance;
   const std::size_t number = scene->source.instances.size();
-  instance.mesh = static_cast<int>(mesh.cast<MeshPart>().index);
+  instance.mesh = index_of<MeshPart>(scene, "mesh", mesh, "mesh", "one of scene.meshes");
   const std::string& of_mesh = scene->source.mesh_of(instance).name;
   instance.name = !name.empty() ? name : !of_mesh.empty() ? of_mesh : fmt::format("node {}", number);
   if (!matrix.is_none()) place(instance, transform("transform", matrix));
   for (const scene::Instance& other : scene->source.instances)
     instance.placement = std::max(instance.placement, other.placement);
   ++instance.placement;
-  scene->source.instances.push_back(std::move(instance));
-  scene->change();
-  return {{scene, number}};
+  return InstancePart::add(scene, std::move(instance));
 }
 
 TexturePart make_texture(const ScenePointer& scene, py::handle image, const std::string& wrap, bool nearest,
@@ -259,14 +199,21 @@ TexturePart make_texture(const ScenePointer& scene, py::handle image, const std:
   texture.nearest = nearest;
   texture.image = static_cast<int>(scene->source.images.size());
   scene->source.images.push_back(std::move(picture));
-  scene->source.textures.push_back(texture);
-  scene->change();
-  return {{scene, scene->source.textures.size() - 1}};
+  return TexturePart::add(scene, texture);
 }
 
 void add_geometry(py::module_& module) {
-  add_mesh_class(module);
-  add_instance_class(module);
+  add_part_class<MeshPart>(module, "Mesh",
+                           "Triangles of one material. Arrays that are read are views without a copy.",
+                           mesh_fields())
+      .def_property_readonly(
+          "triangles", [](const MeshPart& part) { return view_of(part.scene, part->triangles); },
+          "(m, 3) uint32");
+  add_part_class<InstancePart>(module, "Instance", "A mesh in the world.", instance_fields())
+      .def_property_readonly("name", [](const InstancePart& part) { return part->name; })
+      .def_property_readonly("mesh", [](const InstancePart& part) {
+        return MeshPart{part.scene, static_cast<std::size_t>(part->mesh)};
+      });
 }
 
 }  // namespace gatelight::python

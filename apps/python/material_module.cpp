@@ -1,6 +1,6 @@
-#include <fmt/format.h>
 #include <pybind11/stl.h>
 
+#include <utility>
 #include <variant>
 
 #include "apps/python/conversions.h"
@@ -15,10 +15,6 @@ namespace py = pybind11;
 using scene::Material;
 
 constexpr apps::RealRange kAtLeastZero{0.0, 3.4e38};
-
-Material& get(const MaterialPart& part) {
-  return part.scene->source.materials[part.index];
-}
 
 /// Which index of refraction is allowed depends on no range: 0 is one, and others begin at 1.
 void set_ior(Material& material, py::handle value) {
@@ -54,22 +50,16 @@ const std::vector<Field<Material>>& fields() {
 MaterialPart make_material(const ScenePointer& scene, const py::kwargs& keywords) {
   Material material;
   set_members(fields(), "Material", scene, material, keywords);
-  scene->source.materials.push_back(std::move(material));
-  scene->change();
-  return {{scene, scene->source.materials.size() - 1}};
+  return MaterialPart::add(scene, std::move(material));
 }
 
 void add_materials(py::module_& module) {
   py::class_<TexturePart>(module, "Texture",
                           "A texture of a scene, for the members *_texture of its materials.")
       .def_property_readonly("index", [](const TexturePart& part) { return part.index; });
-  py::class_<MaterialPart> material(
+  add_part_class<MaterialPart>(
       module, "Material",
-      "A material of a scene, in the terms of glTF 2.0. Changes apply from the next render on.");
-  material.def("__repr__", [](const MaterialPart& part) {
-    return fmt::format("<gatelight.Material {} '{}'>", part.index, get(part).name);
-  });
-  add_fields(material, fields(), &scene::Scene::materials);
+      "A material of a scene, in the terms of glTF 2.0. Changes apply from the next render on.", fields());
 }
 
 }  // namespace gatelight::python

@@ -56,10 +56,4 @@ scene::Scene finish_scene(SceneData& data, Unfinished unfinished);
 /// The same, kept until the scene changes. Call it with Python's lock.
 std::shared_ptr<const scene::Scene> finished_scene(const ScenePointer& data);
 
-/// A part of a scene, by its number.
-struct Part {
-  ScenePointer scene;
-  std::size_t index = 0;
-};
-
 }  // namespace gatelight::python

@@ -14,13 +14,6 @@ namespace {
 
 namespace py = pybind11;
 
-template <class PartOf>
-py::list parts(const ScenePointer& scene, std::size_t count) {
-  py::list list;
-  for (std::size_t i = 0; i < count; ++i) list.append(PartOf{{scene, i}});
-  return list;
-}
-
 void show(const ScenePointer& scene, double seconds) {
   if (!scene->file || !scene->loading.load.time)
     throw BadOption({"time", "", "the scene was loaded without one", "gatelight.load(path, time=...)"});
@@ -42,13 +35,12 @@ py::object bounds_of(const ScenePointer& scene) {
 }
 
 void add_lists(py::class_<SceneData, ScenePointer>& scene) {
-  const auto add = [&](const char* name, auto list) { scene.def_property_readonly(name, list); };
-  add("materials", [](const ScenePointer& s) { return parts<MaterialPart>(s, s->source.materials.size()); });
-  add("meshes", [](const ScenePointer& s) { return parts<MeshPart>(s, s->source.meshes.size()); });
-  add("instances", [](const ScenePointer& s) { return parts<InstancePart>(s, s->source.instances.size()); });
-  add("lights", [](const ScenePointer& s) { return parts<LightPart>(s, s->source.lights.size()); });
-  add("cameras", [](const ScenePointer& s) { return parts<CameraPart>(s, s->source.cameras.size()); });
-  add("textures", [](const ScenePointer& s) { return parts<TexturePart>(s, s->source.textures.size()); });
+  scene.def_property_readonly("materials", &MaterialPart::all);
+  scene.def_property_readonly("meshes", &MeshPart::all);
+  scene.def_property_readonly("instances", &InstancePart::all);
+  scene.def_property_readonly("lights", &LightPart::all);
+  scene.def_property_readonly("cameras", &CameraPart::all);
+  scene.def_property_readonly("textures", &TexturePart::all);
 }
 
 void add_facts(py::class_<SceneData, ScenePointer>& scene) {

@@ -1,7 +1,7 @@
-#include <fmt/format.h>
 #include <pybind11/stl.h>
 
 #include <cmath>
+#include <utility>
 
 #include "apps/python/conversions.h"
 #include "apps/python/fields.h"
@@ -91,9 +91,7 @@ LightPart make_light(const ScenePointer& scene, const std::string& type, const p
   set_members(light_fields(), "Light", scene, light, keywords);
   if (light.type == LightType::spot && light.cos_inner < light.cos_outer)
     throw BadOption({"inner_angle", "", "it is larger than outer_angle", "at most that"});
-  scene->source.lights.push_back(std::move(light));
-  scene->change();
-  return {{scene, scene->source.lights.size() - 1}};
+  return LightPart::add(scene, std::move(light));
 }
 
 CameraPart make_camera(const ScenePointer& scene, const py::kwargs& keywords) {
@@ -109,25 +107,16 @@ CameraPart make_camera(const ScenePointer& scene, const py::kwargs& keywords) {
     camera.transform = look_at(vector("eye", eye), vector("target", target),
                                up.is_none() ? Vec3(0.0f, 1.0f, 0.0f) : vector("up", up));
   set_members(camera_fields(), "Camera", scene, camera, members);
-  scene->source.cameras.push_back(std::move(camera));
-  scene->change();
-  return {{scene, scene->source.cameras.size() - 1}};
+  return CameraPart::add(scene, std::move(camera));
 }
 
 void add_views(py::module_& module) {
-  py::class_<LightPart> light(module, "Light", "A point, spot or directional light.");
-  light.def("__repr__", [](const LightPart& part) {
-    return fmt::format("<gatelight.Light '{}'>", part.scene->source.lights[part.index].name);
-  });
-  light.def_property_readonly("type", [](const LightPart& part) {
-    return std::string(renderer::name_of(apps::kLightTypes, part.scene->source.lights[part.index].type));
-  });
-  add_fields(light, light_fields(), &scene::Scene::lights);
-  py::class_<CameraPart> camera(module, "Camera", "A camera of a scene, chosen by the option camera.");
-  camera.def("__repr__", [](const CameraPart& part) {
-    return fmt::format("<gatelight.Camera {} '{}'>", part.index, part.scene->source.cameras[part.index].name);
-  });
-  add_fields(camera, camera_fields(), &scene::Scene::cameras);
+  add_part_class<LightPart>(module, "Light", "A point, spot or directional light.", light_fields())
+      .def_property_readonly("type", [](const LightPart& part) {
+        return std::string(renderer::name_of(apps::kLightTypes, part->type));
+      });
+  add_part_class<CameraPart>(module, "Camera", "A camera of a scene, chosen by the option camera.",
+                             camera_fields());
 }
 
 }  // namespace gatelight::python

@@ -157,8 +157,7 @@ void add_preset(OptionGroup& group, std::optional<CachePreset>& preset) {
             {.common = true, .in_recipe = InRecipe::unless_reproducible});
 }
 
-}  // namespace
-
+/// The options of files with pictures. `stops` sets the exposure.
 void add_picture_files(OptionGroup& group, std::vector<std::string>& outputs,
                        renderer::ImageWriteOptions& image, std::optional<float>& stops) {
   auto& [exr_float, bits, display, edited] = image;          // `edited` is no option
@@ -199,6 +198,8 @@ void add_picture_files(OptionGroup& group, std::vector<std::string>& outputs,
       of_ocio);
   add(any_word("ocio-view", ocio_view, "NAME", "View of this display (default: the display's)"), of_ocio);
 }
+
+}  // namespace
 
 Option external_option(bool& allowed) {
   return toggle("allow-external", allowed,

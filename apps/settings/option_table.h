@@ -2,7 +2,6 @@
 // All options of `render`: those of the picture and those of the application.
 
 #include <functional>
-#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -20,10 +19,6 @@ std::set<std::string> option_names(const std::function<bool(const Option&)>& fit
 
 /// The options that decide the cache of a scene, for `info`; without SCENE.
 std::vector<Option> cache_report_table(RenderSettings& settings);
-
-/// The options of files with pictures. `stops` sets the exposure.
-void add_picture_files(OptionGroup& group, std::vector<std::string>& outputs,
-                       renderer::ImageWriteOptions& image, std::optional<float>& stops);
 
 // Options that `sweep` has too.
 Option external_option(bool& allowed);
