@@ -75,7 +75,7 @@ const Refused kRefused[] = {
     {"--turntable 4 --frame-groups 3 --denoiser auto", {"frame-groups", "", "denoised", "`temporal` off"}},
     {"--turntable 4 --frame-groups 3 --checkpoint state",
      {"frame-groups", "", "checkpoint", "no `checkpoint`"}},
-    {"--turntable 4 --frame-groups 3 --denoiser auto --temporal off", {"output"}},
+    {"--turntable 4 --frame-groups 3 --denoiser auto --temporal off", {"output", "a.exr"}},
 };
 
 TEST(RefusedFlags, NameTheFlagAndWhatItNeeds) {
