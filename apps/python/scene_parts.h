@@ -47,7 +47,7 @@ template <class PartOf>
 int index_of(const ScenePointer& scene, const char* name, pybind11::handle value, const char* what,
              const char* expected) {
   if (!pybind11::isinstance<PartOf>(value) || value.cast<PartOf>().scene != scene)
-    throw BadOption({name, "", fmt::format("it is no {} of this scene", what), expected});
+    throw BadOption({name, "", fmt::format("is not a {} of this scene", what), expected});
   return static_cast<int>(value.cast<PartOf>().index);
 }
 

@@ -7,6 +7,8 @@
 namespace gatelight::apps {
 namespace {
 
+using nlohmann::ordered_json;
+
 /// In the file's coordinates.
 Box box_of(const scene::Scene& scene, const scene::Instance& instance) {
   Box box;
@@ -30,22 +32,29 @@ std::optional<Box> SceneOutline::object_around(std::size_t instance) const {
 
 SceneOutline outline_of(const scene::Scene& scene) {
   SceneOutline outline;
+  ordered_json cameras = ordered_json::array(), animations = ordered_json::array();
   for (const scene::Camera& camera : scene.cameras)
-    outline.cameras.push_back({camera.name.empty() ? camera.node : camera.name, camera.orthographic});
-  const scene::LightNames names(scene);
-  outline.lights.assign(names.lights.begin(), names.lights.end());
-  outline.glowing.assign(names.materials.begin(), names.materials.end());
-  outline.animations = scene.animations;
+    cameras.push_back(
+        {{"name", camera.name.empty() ? camera.node : camera.name}, {"orthographic", camera.orthographic}});
+  for (const scene::Animation& animation : scene.animations)
+    animations.push_back({{"name", animation.name}, {"seconds", animation.seconds}});
   for (const scene::Instance& instance : scene.instances) {
     outline.instances.push_back(instance.name);
     outline.boxes.push_back(box_of(scene, instance));
     outline.placements.push_back(instance.placement);
   }
-  if (!scene.bounds.isEmpty()) {
-    outline.center = scene.bounds.center() + scene.origin;
-    outline.radius = std::max(0.5f * scene.bounds.diagonal().norm(), 1e-6f);
-  }
-  outline.has_own_light = !scene.lights.empty() || !names.materials.empty() || scene.image_light;
+  const bool empty = scene.bounds.isEmpty();
+  const Vec3 center = empty ? Vec3(0.0f, 0.0f, 0.0f) : Vec3(scene.bounds.center() + scene.origin);
+  const float radius = empty ? 1.0f : std::max(0.5f * scene.bounds.diagonal().norm(), 1e-6f);
+  const scene::LightNames names(scene);
+  outline.json = {
+      {"cameras", cameras},
+      {"lights", names.lights},
+      {"glowing", names.materials},
+      {"animations", animations},
+      {"center", {center.x(), center.y(), center.z()}},
+      {"radius", radius},
+      {"has_own_light", !scene.lights.empty() || !names.materials.empty() || scene.image_light.has_value()}};
   return outline;
 }
 

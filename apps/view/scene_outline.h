@@ -1,6 +1,7 @@
 #pragma once
 // The names and places of a scene that a page lists.
 
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,19 +11,11 @@
 namespace gatelight::apps {
 
 struct SceneOutline {
-  struct NamedCamera {
-    std::string name;
-    bool orthographic = false;
-  };
-  std::vector<NamedCamera> cameras;  ///< in the file's order
-  std::vector<std::string> lights;   ///< punctual ones, each name once
-  std::vector<std::string> glowing;  ///< emissive materials
-  std::vector<scene::Animation> animations;
+  /// The page's: cameras in the file's order, names of lights and of emissive materials (`glowing`), each
+  /// once, animations, the place of all and whether it has light.
+  nlohmann::ordered_json json;
   std::vector<std::string> instances;  ///< names, by number
   std::vector<Box> boxes;              ///< of the instances, in the file's coordinates, as loaded
-  Vec3 center = Vec3::Zero();
-  float radius = 1.0f;  ///< metres
-  bool has_own_light = false;
 
   /// The box of all instances that a placed mesh of the file consists of; none for an unknown number.
   std::optional<Box> object_around(std::size_t instance) const;

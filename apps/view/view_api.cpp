@@ -104,21 +104,6 @@ ordered_json describe(const ShownPicture& shown) {
   return json;
 }
 
-ordered_json describe(const SceneOutline& outline) {
-  ordered_json cameras = ordered_json::array(), animations = ordered_json::array();
-  for (const SceneOutline::NamedCamera& camera : outline.cameras)
-    cameras.push_back({{"name", camera.name}, {"orthographic", camera.orthographic}});
-  for (const scene::Animation& animation : outline.animations)
-    animations.push_back({{"name", animation.name}, {"seconds", animation.seconds}});
-  return {{"cameras", cameras},
-          {"lights", outline.lights},
-          {"glowing", outline.glowing},
-          {"animations", animations},
-          {"center", {outline.center.x(), outline.center.y(), outline.center.z()}},
-          {"radius", outline.radius},
-          {"has_own_light", outline.has_own_light}};
-}
-
 /// The layers that the page offers: those of a scene's pictures, or of the finished picture.
 ordered_json describe_layers(const renderer::Picture* finished) {
   ordered_json layers = ordered_json::array();
@@ -183,7 +168,7 @@ WebResponse ViewApi::scene(const std::string& viewer) {
       {"file", source_.file()}, {"given", words}, {"flags", source_.flags(viewer)}, {"curves", curves}};
   if (const SceneOutline* outline = source_.outline()) {
     json["layers"] = describe_layers(nullptr);
-    json.update(describe(*outline));
+    json.update(outline->json);
   } else if (const auto shown = source_.last_whole(viewer)) {
     json["layers"] = describe_layers(&shown->picture);
   }

@@ -76,7 +76,7 @@ TEST(ViewSession, ShowsEachStageInTurn) {
 
 TEST(ViewSession, DimsALight) {
   ViewSession session(kBox, kWords);
-  ASSERT_FALSE(session.outline()->glowing.empty());
+  ASSERT_FALSE(session.outline()->json["glowing"].empty());
   session.change("a", {{"lights", "*=off"}}, "");
   const auto dark = next(session, "a", [](const ShownPicture& s) { return s.complete; });
   ASSERT_TRUE(dark);
