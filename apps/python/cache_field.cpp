@@ -68,14 +68,12 @@ std::shared_ptr<const neural::Model> model_of(const scene::Scene& scene, std::ui
 }  // namespace
 
 neural::QueryBatch FieldPoints::batch() const {
-  neural::QueryBatch batch;
-  batch.surfaces = surfaces;
-  batch.triangles = triangles;
-  batch.barycentrics = barycentrics;
-  batch.positions = positions;
-  batch.normals = normals;
-  batch.size = surfaces.size();
-  return batch;
+  return {.surfaces = surfaces,
+          .triangles = triangles,
+          .barycentrics = barycentrics,
+          .positions = positions,
+          .normals = normals,
+          .size = surfaces.size()};
 }
 
 FieldPoints FieldPoints::chosen(const std::vector<std::size_t>& indices) const {

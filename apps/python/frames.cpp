@@ -28,8 +28,8 @@ Frames::Frames(ScenePointer scene, const py::dict& keywords, py::object progress
   frames_ = settings_.frames.range->numbers();
 }
 
-void Frames::begin(Unfinished unfinished, Waiting& waiting) {
-  shown_ = finish_scene(*scene_, std::move(unfinished));
+void Frames::begin(SceneContent copy, Waiting& waiting) {
+  shown_ = finish_scene(*scene_, std::move(copy));
   const auto show_time = [this](double seconds) {
     if (!scene_->file || !scene_->loading.load.time) return;
     const std::lock_guard lock(scene_->file_mutex);
@@ -57,13 +57,13 @@ PicturePointer Frames::make(int frame, Waiting& waiting) {
 
 PicturePointer Frames::next() {
   if (next_ >= frames_.size()) throw py::stop_iteration();
-  Unfinished unfinished;
+  SceneContent copy;
   const bool first = !sequence_;
-  if (first) unfinished = copy_of(*scene_);
+  if (first) copy = *scene_;
   PicturePointer picture;
   Waiting waiting(progress_, stop_);
   waiting.run([&] {
-    if (first) begin(std::move(unfinished), waiting);
+    if (first) begin(std::move(copy), waiting);
     if (first && waiting.stopped()) return sequence_.reset();
     picture = make(frames_[next_], waiting);
   });

@@ -24,7 +24,7 @@ class Frames {
   std::size_t size() const { return frames_.size(); }
 
  private:
-  void begin(Unfinished unfinished, Waiting& waiting);
+  void begin(SceneContent copy, Waiting& waiting);
   /// The next picture, without the interpreter's lock. Null where `stop` returned true.
   PicturePointer make(int frame, Waiting& waiting);
 

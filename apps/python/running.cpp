@@ -89,10 +89,10 @@ void show_warnings(const PictureData& picture) {
 Running::Running(ScenePointer scene, const py::dict& keywords)
     : scene_(std::move(scene)), keywords_(keywords), settings_(settings_for(*scene_, keywords_)) {}
 
-void Running::build(Unfinished unfinished) {
+void Running::build(SceneContent copy) {
   renderer_.reset();
   built_.reset();
-  built_ = std::make_shared<const scene::Scene>(finish_scene(*scene_, std::move(unfinished)));
+  built_ = std::make_shared<const scene::Scene>(finish_scene(*scene_, std::move(copy)));
   renderer_ = std::make_unique<renderer::Renderer>(*built_, settings_.render);
 }
 
@@ -104,8 +104,8 @@ PicturePointer Running::render(const py::object& progress, const py::object& sto
   const Clock::time_point start = Clock::now();
   const bool changed = !renderer_ || revision_ != scene_->revision;
   if (scene_->shown) settings_.load.time = scene_->shown;
-  Unfinished unfinished;
-  if (changed) unfinished = copy_of(*scene_);
+  SceneContent copy;
+  if (changed) copy = *scene_;
   revision_ = scene_->revision;
   apps::RunReport report;
   report.command = {"gatelight.render"};
@@ -116,7 +116,7 @@ PicturePointer Running::render(const py::object& progress, const py::object& sto
     if (settings_.render.denoise.denoiser == renderer::DenoiserKind::oidn)
       renderer::load_oidn(settings_.render.denoise.library);
     if (changed) {
-      build(std::move(unfinished));
+      build(std::move(copy));
     } else if (has_new_options_) {
       renderer_->set_options(settings_.render);
     }

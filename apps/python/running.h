@@ -37,7 +37,7 @@ class Running {
 
  private:
   void take(const pybind11::dict& keywords, const apps::RenderSettings& settings);
-  void build(Unfinished unfinished);
+  void build(SceneContent copy);
 
   ScenePointer scene_;
   pybind11::dict keywords_;

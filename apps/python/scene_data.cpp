@@ -90,17 +90,13 @@ ScenePointer load_scene(const std::string& path, const py::dict& keywords) {
   return data;
 }
 
-Unfinished copy_of(const SceneData& data) {
-  return {data.source, data.own_meshes, data.shown};
-}
-
-scene::Scene finish_scene(SceneData& data, Unfinished unfinished) {
-  scene::Scene scene = std::move(unfinished.copy);
-  complete_own_meshes(scene, unfinished.own_meshes);
+scene::Scene finish_scene(SceneData& data, SceneContent copy) {
+  scene::Scene scene = std::move(copy.source);
+  complete_own_meshes(scene, copy.own_meshes);
   if (data.file) {
     const std::lock_guard lock(data.file_mutex);
     data.file->finish(scene);
-    if (unfinished.shown) data.file->show(scene, *unfinished.shown);
+    if (copy.shown) data.file->show(scene, *copy.shown);
     return scene;
   }
   if (scene.instances.empty() && !scene.meshes.empty())
@@ -113,12 +109,11 @@ scene::Scene finish_scene(SceneData& data, Unfinished unfinished) {
 
 std::shared_ptr<const scene::Scene> finished_scene(const ScenePointer& data) {
   if (data->finished) return data->finished;
-  Unfinished unfinished = copy_of(*data);
+  SceneContent copy = *data;
   const std::uint64_t revision = data->revision;
   std::shared_ptr<const scene::Scene> scene;
   Waiting waiting;
-  waiting.run(
-      [&] { scene = std::make_shared<const scene::Scene>(finish_scene(*data, std::move(unfinished))); });
+  waiting.run([&] { scene = std::make_shared<const scene::Scene>(finish_scene(*data, std::move(copy))); });
   if (revision == data->revision) data->finished = scene;
   return scene;
 }

@@ -15,16 +15,20 @@
 
 namespace gatelight::python {
 
-struct SceneData {
-  /// As it was read or made: meshes in their own space, nothing baked. Only a thread with Python's lock
-  /// touches it. Arrays of meshes never move, because views of NumPy point into them.
+/// What a change of the scene changes. Only a thread with Python's lock touches it.
+struct SceneContent {
+  /// As it was read or made: meshes in their own space, nothing baked. Arrays of meshes never move, because
+  /// views of NumPy point into them.
   scene::Scene source;
   std::vector<char> own_meshes;  ///< for each mesh, whether it was made of arrays
+  std::optional<double> shown;   ///< time of show(), else that of the options
+};
+
+struct SceneData : SceneContent {
   std::unique_ptr<scene::SceneFile> file;
   std::mutex file_mutex;
   apps::RenderSettings loading;  ///< the options that it was loaded with
   double load_seconds = 0.0;
-  std::optional<double> shown;                   ///< time of show(), else that of the options
   std::uint64_t revision = 0;                    ///< of all above
   std::shared_ptr<const scene::Scene> finished;  ///< of this revision, where there is one
 
@@ -32,8 +36,6 @@ struct SceneData {
     ++revision;
     finished.reset();
   }
-  /// Where it does not come from a file, its own meshes count only.
-  bool is_own(std::size_t mesh) const { return mesh < own_meshes.size() && own_meshes[mesh] != 0; }
 };
 
 using ScenePointer = std::shared_ptr<SceneData>;
@@ -41,17 +43,9 @@ using ScenePointer = std::shared_ptr<SceneData>;
 /// Opens a file with the options of load().
 ScenePointer load_scene(const std::string& path, const pybind11::dict& keywords);
 
-/// What finish_scene() needs of a scene. Make it with Python's lock.
-struct Unfinished {
-  scene::Scene copy;
-  std::vector<char> own_meshes;
-  std::optional<double> shown;
-};
-Unfinished copy_of(const SceneData& data);
-
-/// The scene for a renderer: meshes made of arrays are completed as those of a file are, then the last steps
-/// of loading. Runs without Python's lock. Throws InputError.
-scene::Scene finish_scene(SceneData& data, Unfinished unfinished);
+/// The scene for a renderer, of a copy that was made with Python's lock: meshes made of arrays are completed
+/// as those of a file are, then the last steps of loading. Runs without the lock. Throws InputError.
+scene::Scene finish_scene(SceneData& data, SceneContent copy);
 
 /// The same, kept until the scene changes. Call it with Python's lock.
 std::shared_ptr<const scene::Scene> finished_scene(const ScenePointer& data);
