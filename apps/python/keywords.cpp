@@ -17,8 +17,6 @@ namespace {
 namespace py = pybind11;
 using apps::Option;
 
-constexpr const char* kFrom[] = {"yes", "on", "true"};
-
 std::string keyword_of(std::string flag) {
   std::replace(flag.begin(), flag.end(), '-', '_');
   return flag;
@@ -50,17 +48,9 @@ std::string text_of_dictionary(const std::string& option, const py::dict& values
   return text;
 }
 
-bool toggle_value(const Option& option, py::handle value) {
-  if (py::isinstance<py::bool_>(value)) return value.cast<bool>();
-  const std::string text = text_of(option.name, value);
-  if (std::find(std::begin(kFrom), std::end(kFrom), text) != std::end(kFrom)) return true;
-  if (text == "off" || text == "no" || text == "false") return false;
-  throw BadOption({option.name, text, "", "True or False"});
-}
-
 void read(const Option& option, py::handle value) {
   if (option.toggle) {
-    *option.toggle = toggle_value(option, value);
+    *option.toggle = apps::parse_choice(option.name, text_of(option.name, value), apps::kOnOff);
     return;
   }
   if (option.list) {
@@ -167,14 +157,10 @@ void add_options(py::module_& module) {
         py::dict all;
         for (const Option& option : apps::option_table(settings)) {
           if (option.positional) continue;
-          const bool shows = option.value && !option.list && !option.toggle;
           py::dict entry;
           entry["help"] = option.help;
           entry["values"] = option.toggle ? "True|False" : option.unit;
-          entry["default"] = option.toggle                  ? "False"
-                             : !option.default_text.empty() ? option.default_text
-                             : shows                        ? option.text()
-                                                            : "";
+          entry["default"] = option.toggle ? "False" : option.shown_default();
           entry["group"] = option.group;
           entry["common"] = option.marks.common;
           entry["loading"] = option.marks.stage == apps::OptionStage::load;
