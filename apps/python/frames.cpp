@@ -1,18 +1,52 @@
-#include "apps/python/frames.h"
+// The frames of an animation, one after the other.
 
 #include <fmt/format.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
 
+#include <memory>
 #include <utility>
+#include <vector>
 
+#include "apps/job/frame_sequence.h"
 #include "apps/job/frame_settings.h"
 #include "apps/python/keywords.h"
+#include "apps/python/module.h"
+#include "apps/python/picture_data.h"
 #include "apps/python/running.h"
+#include "apps/python/scene_data.h"
+#include "apps/python/waiting.h"
 #include "base/clock.h"
 #include "base/errors.h"
 
 namespace gatelight::python {
+namespace {
 
 namespace py = pybind11;
+
+class Frames {
+ public:
+  /// Throws BadOption without frames among the options, and for a scene that shows one time only.
+  Frames(ScenePointer scene, const py::dict& keywords, py::object progress, py::object stop);
+
+  /// The next picture. Throws py::stop_iteration after the last one, or where `stop` returned true.
+  PicturePointer next();
+  std::size_t size() const { return frames_.size(); }
+
+ private:
+  void begin(SceneContent copy, Waiting& waiting);
+  /// The next picture, without the interpreter's lock. Null where `stop` returned true.
+  PicturePointer make(int frame, Waiting& waiting);
+
+  ScenePointer scene_;
+  apps::RenderSettings settings_;
+  std::vector<int> frames_;
+  std::size_t next_ = 0;
+  scene::Scene shown_;  ///< outlives sequence_
+  std::unique_ptr<apps::FrameSequence> sequence_;
+  py::object progress_;
+  py::object stop_;
+};
 
 Frames::Frames(ScenePointer scene, const py::dict& keywords, py::object progress, py::object stop)
     : scene_(std::move(scene)),
@@ -71,6 +105,20 @@ PicturePointer Frames::next() {
   show_warnings(*picture);
   ++next_;
   return picture;
+}
+
+}  // namespace
+
+void add_frames(py::module_& module) {
+  py::class_<Frames> frames(module, "Frames", "An iterator over the frames of an animation.");
+  frames.def(py::init([](const ScenePointer& scene, const py::dict& options, const py::object& progress,
+                         const py::object& stop) {
+               return std::make_unique<Frames>(scene, options, progress, stop);
+             }),
+             py::arg("scene"), py::arg("options"), py::arg("progress"), py::arg("stop"));
+  frames.def("__iter__", [](py::object self) { return self; });
+  frames.def("__next__", &Frames::next);
+  frames.def("__len__", &Frames::size);
 }
 
 }  // namespace gatelight::python

@@ -13,6 +13,7 @@ PYBIND11_MODULE(_gatelight, module) {
   python::add_scene(module);
   python::add_picture(module);
   python::add_renderer(module);
+  python::add_frames(module);
   python::add_metrics(module);
   python::add_cache(module);
 }

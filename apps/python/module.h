@@ -11,6 +11,7 @@ void add_materials(pybind11::module_& module);
 void add_scene(pybind11::module_& module);
 void add_picture(pybind11::module_& module);
 void add_renderer(pybind11::module_& module);
+void add_frames(pybind11::module_& module);
 void add_metrics(pybind11::module_& module);
 void add_cache(pybind11::module_& module);
 

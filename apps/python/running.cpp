@@ -1,11 +1,15 @@
 #include "apps/python/running.h"
 
 #include <fmt/format.h>
+#include <pybind11/stl.h>
 
+#include <atomic>
+#include <memory>
 #include <utility>
 
 #include "apps/job/finished_picture.h"
 #include "apps/python/keywords.h"
+#include "apps/python/module.h"
 #include "apps/python/waiting.h"
 #include "apps/settings/complete_settings.h"
 #include "apps/terminal/terminal.h"
@@ -13,6 +17,7 @@
 #include "base/clock.h"
 #include "base/errors.h"
 #include "renderer/denoise/oidn_library.h"
+#include "renderer/render.h"
 #include "renderer/settings/resolved_options.h"
 
 namespace gatelight::python {
@@ -35,6 +40,33 @@ class Busy {
 
  private:
   std::atomic<bool>& flag_;
+};
+
+/// A renderer of Python: options, the scene, and what is built for it.
+class Running {
+ public:
+  Running(ScenePointer scene, const py::dict& keywords);
+
+  PicturePointer render(const py::object& progress, const py::object& stop);
+  void set_camera(const py::dict& keywords);
+  void set_options(const py::dict& keywords);
+  /// Another thread may call it: the picture so far ends the render that is under way.
+  void stop() { stop_ = true; }
+  const ScenePointer& scene() const { return scene_; }
+
+ private:
+  void take(const py::dict& keywords, const apps::RenderSettings& settings);
+  void build(SceneContent copy);
+
+  ScenePointer scene_;
+  py::dict keywords_;
+  apps::RenderSettings settings_;
+  std::shared_ptr<const scene::Scene> built_;  ///< outlives renderer_
+  std::unique_ptr<renderer::Renderer> renderer_;
+  std::uint64_t revision_ = 0;
+  bool has_new_options_ = false;  ///< renderer_ does not know them yet
+  std::atomic<bool> stop_ = false;
+  std::atomic<bool> busy_ = false;
 };
 
 }  // namespace
@@ -157,6 +189,29 @@ void Running::set_options(const py::dict& keywords) {
 void Running::take(const py::dict& keywords, const apps::RenderSettings& settings) {
   keywords_ = keywords;
   settings_ = settings;
+}
+
+void add_renderer(py::module_& module) {
+  py::class_<Running> renderer(module, "Renderer",
+                               "Renders one scene several times. Its data (the acceleration structure, "
+                               "lights, textures) is kept until the scene changes.");
+  renderer.def(py::init([](const ScenePointer& scene, const py::kwargs& options) {
+                 return std::make_unique<Running>(scene, options);
+               }),
+               py::arg("scene"), "Options are those of gatelight.render.");
+  renderer.def("render", &Running::render, py::kw_only(), py::arg("progress") = py::none(),
+               py::arg("stop") = py::none(),
+               "Renders a picture. If another thread calls stop(), it is the picture so far.");
+  renderer.def(
+      "set_camera", [](Running& running, const py::kwargs& view) { running.set_camera(view); },
+      "Changes the view of the next pictures: camera, eye, target, up, fov, lens, projection, view_height, "
+      "aperture, focus, blades, view_file. Nothing is rebuilt.");
+  renderer.def(
+      "set_options", [](Running& running, const py::kwargs& options) { running.set_options(options); },
+      "Changes options of the next pictures; other options keep their values. None sets the default. Only "
+      "data that depends on the changed options is rebuilt.");
+  renderer.def("stop", &Running::stop, "Ends the current render of another thread.");
+  renderer.def_property_readonly("scene", &Running::scene);
 }
 
 }  // namespace gatelight::python
