@@ -3,17 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <exception>
 #include <nlohmann/json.hpp>
 #include <utility>
 
 #include "apps/job/finished_picture.h"
+#include "apps/reports/json.h"
 #include "apps/reports/run_report.h"
 #include "apps/settings/parsing.h"
 #include "apps/terminal/errors.h"
 #include "apps/terminal/text.h"
-#include "apps/view/pixel_report.h"
 #include "apps/view/shown_layers.h"
 #include "base/errors.h"
 #include "base/image/jpeg_write.h"
@@ -118,6 +117,43 @@ ordered_json describe_layers(const renderer::Picture* finished) {
     layers.push_back({{"name", row.name}, {"label", row.label}, {"needs", name_of_needs(row.needs)}});
   }
   return layers;
+}
+
+ordered_json values_at(const renderer::Layer& layer, std::size_t pixel) {
+  ordered_json values = ordered_json::array();
+  const std::size_t channels = layer.channels.size();
+  for (std::size_t c = 0; c < channels; ++c)
+    values.push_back(json_number(layer.values[pixel * channels + c]));
+  return values;
+}
+
+/// What is under a place in the picture, 0 to 1 from its top left corner: the values of every layer, and
+/// where a surface of a scene with an outline is there, its place, the object's name, and the centre and
+/// radius of the object's box.
+ordered_json pixel_report(const renderer::Picture& picture, const SceneOutline* outline, double x, double y) {
+  const int column = std::min(static_cast<int>(x * picture.width), picture.width - 1);
+  const int row = std::min(static_cast<int>(y * picture.height), picture.height - 1);
+  const std::size_t pixel = static_cast<std::size_t>(row) * static_cast<std::size_t>(picture.width) +
+                            static_cast<std::size_t>(column);
+  ordered_json json{{"x", column}, {"y", row}};
+  ordered_json layers;
+  for (const renderer::Layer& layer : picture.layers)
+    layers[layer.name.empty() ? "radiance" : layer.name] = values_at(layer, pixel);
+  json["layers"] = layers;
+  const renderer::Layer* instances = picture.find(renderer::enum_name(renderer::Aov::instance_id));
+  const renderer::Layer* positions = picture.find(renderer::enum_name(renderer::Aov::position));
+  if (!outline || !instances || !positions) return json;
+  const float number = instances->values[pixel];
+  if (!(number >= 0.0f) || static_cast<std::size_t>(number) >= outline->instances.size()) return json;
+  const auto instance = static_cast<std::size_t>(number);
+  json["object"] = outline->instances[instance];
+  json["position"] = values_at(*positions, pixel);
+  if (const std::optional<Box> box = outline->object_around(instance)) {
+    const Vec3 center = box->center();
+    json["center"] = {center.x(), center.y(), center.z()};
+    json["radius"] = 0.5f * box->diagonal().norm();
+  }
+  return json;
 }
 
 /// Where a wide picture is made, and the page asks for a layer that drafts lack, the last whole one is shown.
