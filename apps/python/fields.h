@@ -1,10 +1,11 @@
 #pragma once
-// Members of a part of a scene by their names in Python.
+// Members of a part of a scene by their names in Python, and small values of Python as those of a scene.
 
 #include <fmt/format.h>
 #include <pybind11/pybind11.h>
 
 #include <algorithm>
+#include <array>
 #include <functional>
 #include <string>
 #include <utility>
@@ -13,9 +14,32 @@
 #include "apps/python/scene_parts.h"
 #include "apps/settings/parsing.h"
 #include "base/errors.h"
+#include "base/math.h"
 #include "base/nearest_word.h"
 
 namespace gatelight::python {
+
+// Each throws BadOption, which names the value.
+float number(const char* name, pybind11::handle value, const apps::RealRange& range);
+/// Three numbers, or one for all.
+std::array<float, 3> triple(const char* name, pybind11::handle value, const apps::RealRange& range);
+
+inline Color color(const char* name, pybind11::handle value, const apps::RealRange& range) {
+  const std::array<float, 3> v = triple(name, value, range);
+  return {v[0], v[1], v[2]};
+}
+inline Vec3 vector(const char* name, pybind11::handle value) {
+  const std::array<float, 3> v = triple(name, value, apps::kAnyFloat);
+  return {v[0], v[1], v[2]};
+}
+/// A direction of length 1.
+Vec3 direction(const char* name, pybind11::handle value);
+
+pybind11::tuple tuple_of(const Eigen::Ref<const Eigen::Array3f>& v);
+
+/// A matrix of 4 x 4 or 3 x 4 numbers, for column vectors.
+Affine transform(const char* name, pybind11::handle value);
+pybind11::object matrix_of(const Affine& transform);
 
 // The value of a member in Python.
 template <class Value>

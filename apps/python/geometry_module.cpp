@@ -5,7 +5,6 @@
 #include <cstring>
 
 #include "apps/python/arrays.h"
-#include "apps/python/conversions.h"
 #include "apps/python/fields.h"
 #include "apps/python/module.h"
 #include "base/errors.h"

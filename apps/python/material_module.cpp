@@ -3,7 +3,6 @@
 #include <utility>
 #include <variant>
 
-#include "apps/python/conversions.h"
 #include "apps/python/fields.h"
 #include "apps/python/module.h"
 #include "scene/material_fields.h"

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <utility>
 
-#include "apps/python/conversions.h"
 #include "apps/python/fields.h"
 #include "apps/reports/scene_report.h"
 
