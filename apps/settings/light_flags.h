@@ -1,15 +1,21 @@
 #pragma once
-// The values of --lights, --ies and --light-groups.
+// The values of --sky, --lights, --ies and --light-groups.
 
 #include <string>
 #include <vector>
 
 #include "apps/settings/option.h"
 #include "renderer/settings/light_group_options.h"
+#include "renderer/settings/sky_options.h"
 #include "scene/light_adjustments.h"
 #include "scene/light_profiles.h"
 
 namespace gatelight::apps {
+
+/// Reads "clear", or "turbidity=3, sun=AZIMUTH,ELEVATION, ground=0.2, size=0.53, intensity=1", with
+/// "date=2026-06-21, time=14:30, place=LATITUDE,LONGITUDE, zone=+2" instead of the sun; each part may be left
+/// out. Throws BadOption that names the option, the part and what was expected.
+renderer::SkyOptions read_sky(const std::string& option, const std::string& text);
 
 /// Reads "NAME=off;NAME=X;NAME=r,g,b". Throws BadOption that names the option, the part and what was
 /// expected.

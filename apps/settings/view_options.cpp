@@ -2,8 +2,8 @@
 
 #include <array>
 
+#include "apps/settings/light_flags.h"
 #include "apps/settings/picture_options.h"
-#include "apps/settings/sky_flag.h"
 #include "base/errors.h"
 
 namespace gatelight::apps {
