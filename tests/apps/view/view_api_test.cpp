@@ -4,11 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <nlohmann/json.hpp>
-#include <random>
-
-#include "tests/support/words.h"
 
 namespace gatelight::apps {
 namespace {
@@ -123,41 +119,6 @@ TEST_F(Api, SavesTheLastWholePicture) {
   EXPECT_NE(exr.body.find("--preset=preview"), std::string::npos) << "the recipe";
   EXPECT_EQ(png.body.substr(1, 3), "PNG");
   EXPECT_EQ(exr.headers.at("Content-Disposition"), "attachment; filename=gatelight.exr");
-}
-
-/// Requests made of parts of right ones, cut, repeated and with random bytes. GATELIGHT_REQUESTS sets how
-/// many.
-TEST_F(Api, SurvivesAnyRequest) {
-  const char* const wanted = std::getenv("GATELIGHT_REQUESTS");
-  const int count = wanted != nullptr ? std::atoi(wanted) : 3000;
-  std::mt19937 random(7);
-  const auto below = [&](std::size_t n) { return static_cast<std::size_t>(random() % n); };
-  const std::vector<std::string> parts = tests::words_of(
-      "api/ change picture status pixel save scene {} {} {} : {} {} {} null {} {} {} 1e400 nan - [[[[[[ "
-      "exposure {} , {} {} {} {} %00 .. /",
-      {"{", "}", "\"flags\"", "\"eye\"", "\"1,2,3\"", "\"lights\"", "\"size\"", "\"99999x1\"", "\"layer\"",
-       "\"spp\"", "\"0\"", std::string(300, '9'), std::string("\0", 1), "\xf0\x9f"});
-  const auto mixed = [&] {
-    std::string text;
-    for (std::size_t i = below(9); i > 0; --i)
-      text += below(4) == 0 ? std::string(1, static_cast<char>(below(256))) : parts[below(parts.size())];
-    return text;
-  };
-  int right = 0;
-  for (int i = 0; i < count; ++i) {
-    WebRequest request{
-        below(2) == 0 ? "GET" : "POST", below(3) == 0 ? mixed() : "api/" + parts[1 + below(6)], {}, mixed()};
-    if (request.path == "api/picture") continue;  // it would wait
-    for (const char* name : {"viewer", "x", "y", "format", "after"}) {
-      if (below(2) == 0) request.query[name] = below(2) == 0 ? mixed() : "0";
-    }
-    const WebResponse response = api_.answer(request);
-    EXPECT_TRUE(response.status == 200 || response.status == 400 || response.status == 404) << response.body;
-    right += response.status == 200 ? 1 : 0;
-  }
-  EXPECT_GT(right, 100);
-  EXPECT_EQ(post(R"({"flags": {"size": "40x24", "spp": "1"}})").status, 200);
-  finish();
 }
 
 }  // namespace
