@@ -146,6 +146,7 @@ TEST(CacheFlags, EveryFlagIsExplainedInAGroup) {
     EXPECT_THAT(help, HasSubstr("  " + option->get_name(false, true) + " " + option->get_type_name()));
     EXPECT_GE(option->get_description().size(), 10u) << option->get_name();
     EXPECT_NE(option->get_group(), "Options") << option->get_name();
+    EXPECT_EQ(option->get_type_name().find(' '), std::string::npos) << option->get_name();
   }
   for (const char* group : {"Files:", "Cache, learning:", "Cache, model:", "Cache, answers:"}) {
     EXPECT_THAT(help, HasSubstr(std::string("\n") + group + "\n"));

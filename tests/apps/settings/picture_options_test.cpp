@@ -83,22 +83,6 @@ bool is_of_gate(const Option& option, const RenderOptions& options) {
   });
 }
 
-TEST(OptionTable, EachHasANameOfItsOwnAndAPlaceInTheHelp) {
-  RenderOptions options;
-  std::set<std::string> names;
-  for (const Option& option : picture_options(options)) {
-    EXPECT_TRUE(names.insert(option.name).second) << option.name;
-    EXPECT_NE(option.help, "") << option.name;
-    EXPECT_EQ(option.unit.find(' '), std::string::npos) << option.name;
-    if (option.name == "spp" || option.name == "batch") {
-      EXPECT_EQ(option.marks.of_cache, option.name == "batch");
-    }
-  }
-  for (const char* of_each_part : {"spp", "camera", "environment", "checkpoint", "integrator", "train-steps",
-                                   "encoding", "query-at", "device", "cache-in", "threads"})
-    EXPECT_TRUE(names.contains(of_each_part)) << of_each_part;
-}
-
 TEST(OptionTable, EachReadsWhatItWrites) {
   for (RenderOptions options : {RenderOptions(), said()}) {
     for (const CachePreset preset : {CachePreset::standard, CachePreset::final, CachePreset::paper_nrc}) {
