@@ -6,7 +6,6 @@
 
 #include <sstream>
 
-#include "apps/settings/option_table.h"
 #include "tests/support/folder_test.h"
 #include "tests/support/process.h"
 #include "tests/support/temporary_folder.h"
@@ -43,14 +42,6 @@ TEST_F(Usage, HelpFitsOnTwoScreens) {
     EXPECT_THAT(help.out, HasSubstr(word));
   for (const char* word : {"--hash-levels", "--region", "--isa"}) EXPECT_THAT(help.out, Not(HasSubstr(word)));
   EXPECT_EQ(run_gatelight_inside({"render", scene(), "--help"}).out, help.out) << "a scene is no topic";
-}
-
-TEST_F(Usage, EachFlagOfTheShortHelpExists) {
-  const std::string all =
-      run_gatelight_inside({"render", "--help-all"}).out + run_gatelight_inside({"info", "--help-all"}).out;
-  apps::RenderSettings settings;
-  for (const std::string& name : apps::common_names(apps::option_table(settings)))
-    EXPECT_THAT(all, HasSubstr("--" + name)) << name;
 }
 
 TEST_F(Usage, HelpOfATopicHasAllOfItsFlagsAndNoOthers) {

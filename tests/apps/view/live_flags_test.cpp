@@ -39,12 +39,6 @@ TEST(LiveFlags, RefuseWhatAWindowDoesNotChange) {
     EXPECT_THROW(changed({}, {{name, "x"}}), BadOption) << name;
 }
 
-TEST(LiveFlags, WithWrongValuesAreRefused) {
-  EXPECT_THROW(settings_of("a.glb", {}, {{"exposure", "bright"}}), BadOption);
-  EXPECT_THROW(settings_of("a.glb", {}, {{"eye", "1,2"}}), BadOption);
-  EXPECT_THROW(settings_of("a.glb", {}, {{"eye", "1,2,3"}}), BadOption) << "without --target";
-}
-
 TEST(LiveFlags, OfTheCommandLineAreWordsAgain) {
   RenderSettings settings = settings_of("a.glb", {"--spp=7", "--show-hidden", "--lights=lamp=2;sun=off"}, {});
   EXPECT_THAT(given_words(settings), ElementsAre("--spp=7", "--show-hidden", "--lights=lamp=2;sun=off"));
