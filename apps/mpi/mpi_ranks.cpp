@@ -114,8 +114,8 @@ void MpiRanks::end() {
   }
   ended_ = true;
   const double seconds = start_timeout(silence_);
-  const std::jthread finished =
-      deadline(seconds, fmt::format("all work is done, but not all ranks have ended within {:.0f} s", seconds));
+  const std::jthread finished = deadline(
+      seconds, fmt::format("all work is done, but not all ranks have ended within {:.0f} s", seconds));
   if (progress_thread_) progress_thread_->stop();
   std::vector<MpiGroup> groups;
   for (const auto& one : groups_) groups.push_back(one->group());

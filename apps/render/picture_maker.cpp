@@ -101,7 +101,7 @@ void PictureMaker::note_failed_output(const std::exception_ptr& error, bool agai
     std::rethrow_exception(error);
   } catch (const std::exception& failure) {
     console.warn(fmt::format("{}; rendering continues{}", failure.what(),
-                              again ? ", and the write will be retried" : ""));
+                             again ? ", and the write will be retried" : ""));
   }
   if (!again && !failed_output_) failed_output_ = error;
 }

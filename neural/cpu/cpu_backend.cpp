@@ -245,10 +245,10 @@ void CpuBackend::update(float scale, const TrainingBatch& batch, Team& team, Ste
     const FlushDenormals flush;
     std::uint64_t touched_here = 0, skipped_here = 0;
     if (begin < slices)
-      skipped_here +=
-          network_.update(std::uint64_t{begin} * kSlice,
-                          std::min(std::uint64_t{std::min(end, slices)} * kSlice, network_.size()),
-                          chunk_gradients_.data(), static_cast<std::uint32_t>(chunk_statistics_.size()), scale, of_features.dense_step);
+      skipped_here += network_.update(
+          std::uint64_t{begin} * kSlice,
+          std::min(std::uint64_t{std::min(end, slices)} * kSlice, network_.size()), chunk_gradients_.data(),
+          static_cast<std::uint32_t>(chunk_statistics_.size()), scale, of_features.dense_step);
     if (end > slices) {
       KernelFeatureUpdate u = of_features;
       u.touched_count = &touched_here;

@@ -119,7 +119,7 @@ struct KernelTraining {
   uint32_t chunk_tiles;  // of a chunk; `begin` is that of a chunk
   uint32_t relative_loss;
   float max_target;
-  float* scratch;  // KernelTable::scratch_floats floats, aligned to 64 bytes
+  float* scratch;            // KernelTable::scratch_floats floats, aligned to 64 bytes
   uint32_t* nodes;           // [tile][node slot][kTile]; weight 0 means no reference
   float* weights;            // as `nodes`
   float* feature_gradients;  // [record][feature_inputs]; gradients of the sum of the losses

@@ -24,7 +24,6 @@ struct Record {
   std::vector<double> targets;
 };
 
-
 double round_to_half(double value) {
   return half_to_float(float_to_finite_half(static_cast<float>(value)));
 }

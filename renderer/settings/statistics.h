@@ -112,10 +112,10 @@ struct RenderStatistics {
   CacheStatistics cache;
   std::optional<double> estimated_error;  ///< of the picture, relative RMS (metrics/estimated_error.h)
   EndedBy ended_by = EndedBy::spp;
-  bool interrupted = false;  ///< stopped before `spp` was reached, by the time limit or by the caller
-  std::vector<RankStatistics> team;   ///< of each process, if there are several
-  double reused = 0.0;                ///< share of the pixels that reused samples of earlier frames
-  std::string device_lost;            ///< why the device was lost, if that ended the picture; else empty
+  bool interrupted = false;          ///< stopped before `spp` was reached, by the time limit or by the caller
+  std::vector<RankStatistics> team;  ///< of each process, if there are several
+  double reused = 0.0;               ///< share of the pixels that reused samples of earlier frames
+  std::string device_lost;           ///< why the device was lost, if that ended the picture; else empty
 };
 
 }  // namespace gatelight::renderer

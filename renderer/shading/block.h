@@ -35,7 +35,7 @@ struct alignas(64) ShadingBlock {
   Words sampler_key, sampler_index;
   Words dimensions;  ///< first sampler dimension of the vertex
   Words seed;
-  Floats time;  ///< of the shutter
+  Floats time;                   ///< of the shutter
   Words events_before_roulette;  ///< scattering events left until Russian roulette applies; signed
   Floats throughput[3];          ///< for Russian roulette
 

@@ -70,7 +70,8 @@ GATELIGHT_INLINE void scatter_at(ShadingBlock& block, const ShadingContext& cont
   const Mask plays = events <= select_or_zero(~through_pane, Float(1.0f));
   const Mask is_long = events <= Float(static_cast<float>(-context.roulette.long_path));
   const Float kept = context.roulette.factor * sqrt(largest(load(block.throughput, at) * s.weight));
-  const Float survival = select(plays, min(select(is_long, Float(context.roulette.most), Float(1.0f)), kept), 1.0f);
+  const Float survival =
+      select(plays, min(select(is_long, Float(context.roulette.most), Float(1.0f)), kept), 1.0f);
   alive &= ~plays | (to_unit_float(hash(next ^ 0x68bc21ebu)) < survival);
   store(block.alive, at, alive);
   store(block.is_delta, at, s.delta);

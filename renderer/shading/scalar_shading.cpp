@@ -123,8 +123,9 @@ void sample_light(const Lights& lights, LightKinds kinds, ShadingBlock& block, i
   const Vec3 position = lane_vector(block.position, lane), normal = light_normal(block, lane);
   const float choice = sampler.get_1d(dimensions + 2), time = block.time[lane];
   const Vec2 point = sampler.get_2d(dimensions + 3);
-  const LightSample s = kinds == LightKinds::delta ? lights.sample_delta(position, normal, choice, point, time)
-                                                   : lights.sample(position, normal, choice, point, time);
+  const LightSample s = kinds == LightKinds::delta
+                            ? lights.sample_delta(position, normal, choice, point, time)
+                            : lights.sample(position, normal, choice, point, time);
   block.light_state[lane] = static_cast<std::uint32_t>(s.pdf > 0.0f ? LaneLight::done : LaneLight::none);
   block.light_is_delta[lane] = s.delta ? ~0u : 0u;
   put_lane(block.light_direction, lane, s.wi);
