@@ -1,8 +1,10 @@
 // train_step/{nrc,nao}/{gate,hashgrid}/{coherent,random}: a training step of 49152 records on one million
-// triangles.
+// triangles. small_steps/...: 24 steps of 2048 records each, as pictures have, by one Team.
 
 #include <string>
 
+#include "base/parallel/schedule.h"
+#include "base/parallel/team.h"
 #include "bench/neural_rows.h"
 #include "bench/schedule_file.h"
 

@@ -24,7 +24,7 @@ const double kMediaSignificance = testing::sidak(1e-4, 16);
 
 constexpr float kWater = 1.33f, kGlass = 1.5f;
 
-void expect_mean(const Moments& moments, double expected) {
+void expect_media_mean(const Moments& moments, double expected) {
   EXPECT_GT(testing::mean_p_value(moments, expected, 1e-5), kMediaSignificance)
       << "mean " << moments.mean() << " +- " << moments.standard_error() << ", expected " << expected;
 }
@@ -59,7 +59,7 @@ struct Stack : SceneBuilder {
     const std::vector<float> v = picture().layers[0].values;
     return {v[0], v[1], v[2]};
   }
-  void expect_light(double expected) { expect_mean(channel_moments(picture(), 1), expected); }
+  void expect_light(double expected) { expect_media_mean(channel_moments(picture(), 1), expected); }
 };
 
 /// Fresnel's reflectance at normal incidence, over the transmittance. These add up in a stack of plates whose
@@ -195,7 +195,7 @@ TEST(NestedMedia, LightSamplesAreDimmedInTheWater) {
     Moments differences;
     for (std::size_t i = c; i < samples.layers[0].values.size(); i += 3)
       differences.add(static_cast<double>(bounces.layers[0].values[i] - samples.layers[0].values[i]));
-    expect_mean(differences, 0.0);
+    expect_media_mean(differences, 0.0);
   }
 }
 
@@ -222,7 +222,7 @@ TEST(NestedMedia, ABlockOfAirInDispersingGlassIsColourlessAtNormalIncidence) {
   stack.scene().materials[1].dispersion = 1.0f;
   const Picture picture = stack.picture();
   const double expected = 1.0 / (1.0 + 4.0 * plate(1, kGlass));
-  for (std::size_t c = 0; c < 3; ++c) expect_mean(channel_moments(picture, c), expected);
+  for (std::size_t c = 0; c < 3; ++c) expect_media_mean(channel_moments(picture, c), expected);
 }
 
 /// Balls of water, glass and ice, smooth and rough, in a white sky: nothing absorbs, so all are invisible.
@@ -244,7 +244,7 @@ TEST(NestedMedia, BallsInAWhiteFurnaceAreInvisible) {
     options.environment.constant = Color::Ones();
     options.camera.look_at = LookAt{.eye = Vec3(0, 0.5f, 4), .target = Vec3::Zero(), .up = Vec3(0, 1, 0)};
     SCOPED_TRACE(roughness);
-    expect_mean(channel_moments(Renderer(builder.scene(), options).render(), 1), 1.0);
+    expect_media_mean(channel_moments(Renderer(builder.scene(), options).render(), 1), 1.0);
   }
 }
 
