@@ -17,7 +17,7 @@ namespace gatelight::apps {
 namespace {
 
 using nlohmann::json;
-using renderer::RankStatistics;
+using renderer::ProcessStatistics;
 
 /// Neighbours make a group, and groups differ by one rank at most.
 int number_of_group(int groups, const renderer::Ranks& all) {
@@ -34,7 +34,7 @@ void check_groups(int groups, MpiCollectives& all) {
                                    all.group().name_of(0)));
   }
   if (groups > all.count())
-    throw BadOption({"frame-groups", "", fmt::format("{} ranks cannot be {} groups", all.count(), groups),
+    throw BadOption({"frame-groups", "", fmt::format("{} ranks cannot form {} groups", all.count(), groups),
                      fmt::format("at most {}", all.count())});
 }
 
@@ -48,9 +48,9 @@ json json_of(const std::exception_ptr& failure) {
 }
 
 /// "ranks     5 with 10 threads on 2 machines; waiting 3.1 %, sent 12 MiB\n"
-std::string summary_of(const std::vector<RankStatistics>& ranks, const std::vector<std::string>& hosts) {
-  RankStatistics sum;
-  for (const RankStatistics& rank : ranks) {
+std::string summary_of(const std::vector<ProcessStatistics>& ranks, const std::vector<std::string>& hosts) {
+  ProcessStatistics sum;
+  for (const ProcessStatistics& rank : ranks) {
     sum.threads += rank.threads;
     sum.seconds += rank.seconds;
     sum.waiting_seconds += rank.waiting_seconds;
@@ -84,7 +84,7 @@ int MpiTeam::signal() const {
 }
 
 void MpiTeam::describe(RunReport& report) const {
-  const std::vector<RankStatistics>& ranks = report.statistics.team;
+  const std::vector<ProcessStatistics>& ranks = report.statistics.team;
   if (ranks.empty()) return;
   const std::vector<std::string>& hosts = own_->group().hosts;
   report.team_summary = summary_of(ranks, hosts);

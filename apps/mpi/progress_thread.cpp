@@ -118,7 +118,7 @@ bool ProgressThread::step() {
     end_all({kLost,
              fmt::format("rank {} ({}) has not answered for {:.0f} s; all ranks end", lost->rank,
                          world_.hosts[static_cast<std::size_t>(lost->rank)], lost->seconds),
-             "--resume goes on from the last --checkpoint"});
+             "--resume continues from the last --checkpoint"});
   }
   return true;
 }

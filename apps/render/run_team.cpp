@@ -11,8 +11,8 @@ namespace gatelight::apps {
 
 void RunTeam::join(RenderSettings& settings) {
   if (settings.frames.groups == 1) return;
-  throw BadOption(
-      {"frame-groups", "", "one process is one group", "several ranks of gatelight-mpi, by mpirun or srun"});
+  throw BadOption({"frame-groups", "", "a single process has only one group",
+                   "several ranks of gatelight-mpi, started with mpirun or srun"});
 }
 
 void RunTeam::check(const RenderSettings& settings, const scene::Scene& scene) const {

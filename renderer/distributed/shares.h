@@ -13,17 +13,6 @@ struct RankWork {
   std::uint64_t rays = 0;
 };
 
-/// What one of several ranks did for a picture.
-struct RankStatistics {
-  int threads = 0;
-  std::uint64_t samples = 0;  ///< camera paths of the picture
-  std::uint64_t training_paths = 0;
-  std::uint64_t record_bytes = 0;  ///< of this rank's records of training, packed
-  double seconds = 0.0;            ///< since the picture was begun
-  std::uint64_t bytes_sent = 0;    ///< to all other ranks, in all
-  double waiting_seconds = 0.0;    ///< for other ranks, with the transfers
-};
-
 /// Each rank has a range of the tiles of a picture, in their order. Equal on all ranks.
 class Shares {
  public:

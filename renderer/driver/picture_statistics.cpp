@@ -47,7 +47,7 @@ void PictureStatistics::add_others(RenderStatistics& sum, const CacheSession* se
                                                         &sum.cache.negative_answers,
                                                         &sum.cache.unstored_hits};
   struct Counts {
-    RankStatistics own;
+    ProcessStatistics own;
     RayCounts rays;
     std::array<std::uint64_t, kCounted> numbers{};
   };

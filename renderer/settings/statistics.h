@@ -6,8 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "renderer/distributed/shares.h"
-
 namespace gatelight::renderer {
 
 /// A sample that was not finite. It can be reproduced from these values.
@@ -82,6 +80,17 @@ struct CacheStatistics {
   std::string diverged;       ///< why training returned to its last good state (`steps`); else empty
 };
 
+/// Statistics of one of several processes that make a picture together.
+struct ProcessStatistics {
+  int threads = 0;
+  std::uint64_t samples = 0;  ///< camera paths of the picture
+  std::uint64_t training_paths = 0;
+  std::uint64_t record_bytes = 0;  ///< of this process's training records, packed
+  double seconds = 0.0;            ///< since the start of the picture
+  std::uint64_t bytes_sent = 0;    ///< to all other processes together
+  double waiting_seconds = 0.0;    ///< for other processes, including transfers
+};
+
 /// The reason why rendering ended.
 enum class EndedBy : std::uint8_t { spp, max_error, time_limit, caller, device };
 
@@ -112,10 +121,10 @@ struct RenderStatistics {
   CacheStatistics cache;
   std::optional<double> estimated_error;  ///< of the picture, relative RMS (metrics/estimated_error.h)
   EndedBy ended_by = EndedBy::spp;
-  bool interrupted = false;          ///< stopped before `spp` was reached, by the time limit or by the caller
-  std::vector<RankStatistics> team;  ///< of each process, if there are several
-  double reused = 0.0;               ///< share of the pixels that reused samples of earlier frames
-  std::string device_lost;           ///< why the device was lost, if that ended the picture; else empty
+  bool interrupted = false;  ///< stopped before `spp` was reached, by the time limit or by the caller
+  std::vector<ProcessStatistics> team;  ///< of each process, if there are several
+  double reused = 0.0;                  ///< share of the pixels that reused samples of earlier frames
+  std::string device_lost;              ///< why the device was lost, if that ended the picture; else empty
 };
 
 }  // namespace gatelight::renderer

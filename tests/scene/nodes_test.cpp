@@ -292,14 +292,14 @@ TEST(ImageLight, WrongFacesAreRefused) {
   light["specularImages"] = json::array();
   file.expect_refused({"specularImages", "empty"});
   light["specularImages"] = {{0, 1, 2, 3, 4, 6}};
-  file.expect_refused({"specularImages[0][5]", "6", "6 there"});
+  file.expect_refused({"specularImages[0][5]", "6", "of size 6"});
   light["specularImages"] = {{0, 1, 2, 3, 4, 5}};
   light["rotation"] = {0, 0, 0, 0};
   file.expect_refused({"rotation", "unit quaternion"});
   file.root["scenes"][0]["extensions"]["EXT_lights_image_based"]["light"] = 1;
   const Scene scene = file.load();
   EXPECT_FALSE(scene.image_light);
-  expect_messages(scene.warnings, {{"scenes[0]", "1 there"}});
+  expect_messages(scene.warnings, {{"scenes[0]", "of size 1"}});
 }
 
 TEST(Instancing, PlacesTheMeshInEachTransform) {

@@ -62,7 +62,7 @@ TEST_P(RanksOfPictures, GiveTheBitsOfOneProcess) {
     EXPECT_EQ(together.statistics.estimated_error, alone.statistics.estimated_error);
     ASSERT_EQ(together.statistics.team.size(), static_cast<std::size_t>(count));
     std::uint64_t samples = 0, paths = 0;
-    for (const RankStatistics& rank : together.statistics.team) {
+    for (const ProcessStatistics& rank : together.statistics.team) {
       samples += rank.samples;
       paths += rank.training_paths;
     }
