@@ -19,17 +19,28 @@ namespace {
 
 constexpr unsigned kPacket = 16;
 
-/// Embree passes its context, the query's first member, to the filters: the lanes are stored behind it.
+/// Embree passes its context, the query's first member, to the filters: the rest is stored behind it.
 struct Context {
   EmbreeQuery query;
   const Coverage* coverage;
-  ShadowTransmittance lanes[kPacket];
 
   Context(const Coverage& surfaces, bool coherent) : query(coherent), coverage(&surfaces) {}
   bool lets_pass(const Hit& hit, bool back, std::uint32_t seed) const {
     if (back && coverage->culls_backs(hit.instance)) return true;
     return coverage->tests_alpha(hit.instance) && !coverage->is_there(hit, seed);
   }
+};
+
+struct RayContext : Context {
+  std::uint32_t seeds[kPacket];  ///< of the lanes; not set where there are no filters
+
+  using Context::Context;
+};
+
+struct ShadowContext : Context {
+  ShadowTransmittance lanes[kPacket];
+
+  using Context::Context;
 };
 
 std::uint32_t instance_of(unsigned instance, unsigned geometry) {
@@ -55,16 +66,16 @@ bool meets_back(const RTCFilterFunctionNArguments* args, unsigned i) {
 }
 
 void ray_filter(const RTCFilterFunctionNArguments* args) {
-  const Context& context = *reinterpret_cast<const Context*>(args->context);
+  const RayContext& context = *reinterpret_cast<const RayContext*>(args->context);
   for (unsigned i = 0; i < args->N; ++i) {
     if (args->valid[i] != -1) continue;
-    const std::uint32_t seed = context.lanes[RTCRayN_id(args->ray, args->N, i)].seed;
+    const std::uint32_t seed = context.seeds[RTCRayN_id(args->ray, args->N, i)];
     if (context.lets_pass(candidate(args, i), meets_back(args, i), seed)) args->valid[i] = 0;
   }
 }
 
 void shadow_filter(const RTCFilterFunctionNArguments* args) {
-  Context& context = *reinterpret_cast<Context*>(args->context);
+  ShadowContext& context = *reinterpret_cast<ShadowContext*>(args->context);
   for (unsigned i = 0; i < args->N; ++i) {
     if (args->valid[i] != -1) continue;
     ShadowTransmittance& lane = context.lanes[RTCRayN_id(args->ray, args->N, i)];
@@ -326,14 +337,26 @@ std::size_t Accel::bytes() const {
   return static_cast<std::size_t>(std::max(0ll, state_->bytes.load()));
 }
 
+Hit Accel::intersect(const Ray& ray) const {
+  RayContext context(*coverage_, false);
+  context.seeds[0] = ray.seed;
+  const Vec3 &o = ray.origin, &d = ray.direction;
+  RTCRayHit one{{o.x(), o.y(), o.z(), 0.0f, d.x(), d.y(), d.z(), ray.time, ray.t_max, ~0u, 0, 0}, {}};
+  one.hit.geomID = one.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+  context.query.intersect(state_->still, one);
+  if (state_->moving) context.query.intersect(state_->moving, one);
+  return {one.ray.tfar,   one.hit.u,   one.hit.v, instance_of(one.hit.instID[0], one.hit.geomID),
+          one.hit.primID, one.ray.time};
+}
+
 void Accel::intersect(std::span<const Ray> rays, std::span<Hit> hits, bool coherent) const {
-  Context context(*coverage_, coherent);
+  RayContext context(*coverage_, coherent);
   alignas(64) RTCRayHit16 packet;
   const auto set = [&](unsigned i, const Ray& ray) {
     set_ray(packet.ray, i, ray);
     packet.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
     packet.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
-    if (state_->any_filter) context.lanes[i].seed = ray.seed;
+    context.seeds[i] = ray.seed;
   };
   for_each_packet(rays, set, [&](std::size_t first, unsigned count, const int* valid) {
     context.query.intersect(valid, state_->still, packet);
@@ -351,7 +374,7 @@ void Accel::intersect(std::span<const Ray> rays, std::span<Hit> hits, bool coher
 }
 
 void Accel::transmittance(std::span<const Ray> rays, std::span<Color> result) const {
-  Context context(*coverage_, false);
+  ShadowContext context(*coverage_, false);
   alignas(64) RTCRay16 packet;
   const auto set = [&](unsigned i, const Ray& ray) {
     set_ray(packet, i, ray);

@@ -39,6 +39,9 @@ class Accel {
   /// the given order. `coherent` says that neighbours have similar directions.
   void intersect(std::span<const Ray> rays, std::span<Hit> hits, bool coherent) const;
 
+  /// The same for one ray, which is faster than a packet of it.
+  Hit intersect(const Ray& ray) const;
+
   /// The fraction of light that passes along each ray in (0, t_max); zero behind an opaque surface.
   void transmittance(std::span<const Ray> rays, std::span<Color> result) const;
 

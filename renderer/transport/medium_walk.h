@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <span>
 
 #include "renderer/medium/equiangular.h"
 #include "renderer/medium/phase.h"
@@ -74,7 +73,7 @@ class MediumWalker {
           medium_.box ? kInfinity : flight + 4e-6f * (ray.origin.cwiseAbs().maxCoeff() + flight);
       if (walk_.events > 0) {
         ray.t_max = reach;
-        world_.accel.intersect(std::span<const Ray>(&ray, 1), std::span<Hit>(&hit, 1), false);
+        hit = world_.accel.intersect(ray);
         ray.t_max = kInfinity;
         ++counts.bounce;
       }
@@ -101,7 +100,6 @@ class MediumWalker {
       const float distance = span.begin + flight;
       if (medium_.sampled) sample_light(ray, distance, near_lamps ? &span : nullptr, choice);
       scatter(ray, distance);
-      hit = {};
     }
     walk_.alive = false;
     return walk_;
