@@ -26,7 +26,7 @@ double bounces_of_paths(const World& world, const Camera& camera, const PixelRec
     PathIntegrator::Scratch scratch;
     RayCounts rays;
     integrator.trace(samples, results, {}, rays, scratch);
-    bounces += rays.bounce;
+    bounces += rays.bounce - rays.walk;
   });
   return static_cast<double>(bounces) / static_cast<double>(kPaths);
 }

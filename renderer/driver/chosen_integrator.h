@@ -9,8 +9,8 @@
 namespace gatelight::renderer {
 
 /// Mean number of rays after the camera's of light paths of the picture, from some thousand of them. A cache
-/// replaces most of them. It depends on nothing else, so that every run makes the same choice. Runs in the
-/// caller's arena.
+/// replaces most of them, but none between events in a medium, which do not count. It depends on nothing
+/// else, so that every run makes the same choice. Runs in the caller's arena.
 double bounces_of_paths(const World& world, const Camera& camera, const PixelRect& region,
                         const RenderOptions& options);
 

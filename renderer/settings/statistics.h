@@ -21,6 +21,7 @@ struct RayCounts {
   std::uint64_t bounce = 0;
   std::uint64_t shadow = 0;
   double seconds = 0.0;           ///< of tracing, summed over threads
+  std::uint64_t walk = 0;         ///< the part of `bounce` between events in media
   std::uint64_t ended_walks = 0;  ///< paths that ended after kMaxWalk events in a medium
 
   void add(const RayCounts& other) {
@@ -28,6 +29,7 @@ struct RayCounts {
     bounce += other.bounce;
     shadow += other.shadow;
     seconds += other.seconds;
+    walk += other.walk;
     ended_walks += other.ended_walks;
   }
   void subtract(const RayCounts& other) {
@@ -35,6 +37,7 @@ struct RayCounts {
     bounce -= other.bounce;
     shadow -= other.shadow;
     seconds -= other.seconds;
+    walk -= other.walk;
     ended_walks -= other.ended_walks;
   }
 };

@@ -76,6 +76,7 @@ class MediumWalker {
         hit = world_.accel.intersect(ray);
         ray.t_max = kInfinity;
         ++counts.bounce;
+        ++counts.walk;
       }
       const Span span = medium_.within(ray.origin, ray.direction, hit ? hit.t : kInfinity);
       const bool leaves = medium_.box ? !(flight < span.length()) : hit && hit.t <= reach;
