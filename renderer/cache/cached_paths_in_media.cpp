@@ -11,7 +11,7 @@ namespace gatelight::renderer {
                                                     Scratch& scratch) const {
   const bool first_event = path.depth == 0;
   const Color throughput = path.throughput;
-  const FirstHit unscattered = first ? unscattered_hit(context_, path, ray, hit) : FirstHit{};
+  if (first) record_behind(context_, path, ray, hit, *first);
   const MediumWalk walk = walk_medium(
       context_, path, ray, hit, plan.max_depth, counts,
       [&](const Color& arriving, const Ray& shadow, std::uint32_t, int event) {
@@ -36,7 +36,7 @@ namespace gatelight::renderer {
   path.through_medium = true;
   path.wide_events += 1;
   path.spread += walk.spread;
-  if (first) record_medium(path, path.inside->color, unscattered, *first);
+  if (first) record_medium(path, path.inside->color, *first);
   if (batch.parts.any_passes() && first_event) batch.parts.scatter_in_medium(path.index, walk.events);
   return walk.alive;
 }

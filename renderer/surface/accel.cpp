@@ -376,9 +376,10 @@ void Accel::intersect(std::span<const Ray> rays, std::span<Hit> hits, bool coher
 void Accel::transmittance(std::span<const Ray> rays, std::span<Color> result) const {
   ShadowContext context(*coverage_, false);
   alignas(64) RTCRay16 packet;
+  const auto weakens = [&](const Ray& ray) { return state_->any_filter || ray.inside; };
   const auto set = [&](unsigned i, const Ray& ray) {
     set_ray(packet, i, ray);
-    if (state_->any_filter) context.lanes[i].start(ray);
+    if (weakens(ray)) context.lanes[i].start(ray);
   };
   for_each_packet(rays, set, [&](std::size_t first, unsigned count, const int* valid) {
     context.query.occluded(valid, state_->still, packet);
@@ -386,10 +387,9 @@ void Accel::transmittance(std::span<const Ray> rays, std::span<Color> result) co
     for (unsigned i = 0; i < count; ++i) {
       const bool blocked = packet.tfar[i] < 0.0f;
       const Ray& ray = rays[first + i];
-      if (!state_->any_filter && ray.inside) context.lanes[i].start(ray);
-      result[first + i] = blocked                            ? Color(0.0f, 0.0f, 0.0f)
-                          : state_->any_filter || ray.inside ? context.lanes[i].passed(*coverage_, ray.t_max)
-                                                             : Color(1.0f, 1.0f, 1.0f);
+      result[first + i] = blocked        ? Color(0.0f, 0.0f, 0.0f)
+                          : weakens(ray) ? context.lanes[i].passed(*coverage_, ray.t_max)
+                                         : Color(1.0f, 1.0f, 1.0f);
     }
   });
 }

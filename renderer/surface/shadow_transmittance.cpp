@@ -77,7 +77,7 @@ Color ShadowTransmittance::passed(const Coverage& coverage, float distance) {
   Color light = Color::Ones(), absorption = Color::Zero(), here = extinction(inside);
   float at = 0.0f;
   const auto end_at = [&](float t) {
-    absorption += here * (inside && inside->box ? inside->within(origin_, direction_, t).after(at) : t - at);
+    absorption += here * (inside ? inside->within(origin_, direction_, t).after(at) : t - at);
   };
   for (const Boundary& b : all) {
     const Passage passage = coverage.pass(b.hit(), direction_, in);

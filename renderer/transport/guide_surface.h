@@ -28,22 +28,21 @@ inline void record_guide(PathState& path, const SurfaceInteraction& m, FirstHit&
   path.sees_through = is_mirror_or_clear(m.surface.material);
 }
 
-/// The hit of a camera's ray as if no medium scattered it on its way.
-inline FirstHit unscattered_hit(const PathContext& context, const PathState& path, const Ray& ray,
-                                const Hit& hit) {
-  if (!path.is_unscattered() || !hit || path.looks_through(context, hit)) return {};
+/// Call it before a walk through a medium: a camera's ray has the surface behind the medium as its first hit,
+/// whether or not it is scattered on its way.
+inline void record_behind(const PathContext& context, const PathState& path, const Ray& ray, const Hit& hit,
+                          FirstHit& first) {
+  if (!path.is_unscattered() || !hit || path.looks_through(context, hit)) return;
   const SurfaceInteraction m(context.world, ray, hit, path.cone.width + path.cone.spread * hit.t,
                              texture_level_number(path.seed));
-  return first_hit(hit, m.surface, context.world.scene.origin);
+  first = first_hit(hit, m.surface, context.world.scene.origin);
 }
 
 /// Call it where a medium has scattered a path: behind mirrors and clear glass, the last surface becomes the
-/// guide, with the colour of the medium. In front of all surfaces, `unscattered` is that of the ray without
-/// the event.
-inline void record_medium(PathState& path, const Color& color, const FirstHit& unscattered, FirstHit& first) {
+/// guide, with the colour of the medium; in front of all surfaces, that which record_behind() found.
+inline void record_medium(PathState& path, const Color& color, FirstHit& first) {
   if (!path.sees_through) return;
   if (path.surfaces == 0) {
-    first = unscattered;
     first.albedo = color;
     first.guide.hit = true;
   }

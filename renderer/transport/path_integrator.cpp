@@ -9,7 +9,7 @@ namespace gatelight::renderer {
                                                        RayCounts& counts, Scratch& scratch) const {
   const bool first_event = path.depth == 0;
   const Color carried = path.carried();
-  const FirstHit unscattered = first ? unscattered_hit(context_, path, ray, hit) : FirstHit{};
+  if (first) record_behind(context_, path, ray, hit, *first);
   const MediumWalk walk = walk_medium(
       context_, path, ray, hit, options_.max_depth, counts,
       [&](const Color& light, const Ray& shadow, std::uint32_t number, int event) {
@@ -25,7 +25,7 @@ namespace gatelight::renderer {
                                     : scratch.parts.first_scattering(path.index).scattered;
       });
   if (walk.events == 0) return walk.alive;
-  if (first) record_medium(path, path.inside->color, unscattered, *first);
+  if (first) record_medium(path, path.inside->color, *first);
   if (scratch.parts.any_passes() && first_event) scratch.parts.scatter_in_medium(path.index, walk.events);
   return walk.alive;
 }

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <vector>
 
 #include "renderer/medium/equiangular.h"
@@ -15,7 +14,6 @@
 #include "tests/support/picture_moments.h"
 #include "tests/support/random_points.h"
 #include "tests/support/scene_builder.h"
-#include "tests/support/shadow_rays.h"
 #include "tests/support/statistics.h"
 
 namespace gatelight::renderer {
@@ -168,21 +166,11 @@ TEST(Fog, LightSamplesBouncesAndBothAgree) {
     options.camera.fov_degrees = 40.0f;
     options.direct = direct;
     options.glass_shadows = glass;
-    Moments moments;
-    for (std::uint32_t seed = 1; seed <= 24; ++seed) {
-      options.seed = seed;
-      moments.add(testing::moments_of(Renderer(builder.scene(), options).render()).mean());
-    }
-    return moments;
+    return testing::means_of_seeds(builder.scene(), options);
   };
   const Moments both = means(DirectLight::mis, GlassShadows::straight);
-  for (const DirectLight direct : {DirectLight::nee, DirectLight::bsdf}) {
-    const Moments other = means(direct, GlassShadows::straight);
-    const double error = std::hypot(both.standard_error(), other.standard_error());
-    EXPECT_LT(error, 0.02 * both.mean());
-    EXPECT_GT(testing::student_two_sided((both.mean() - other.mean()) / error, 46.0), 1e-4)
-        << both.mean() << " and " << other.mean() << ", error " << error;
-  }
+  for (const DirectLight direct : {DirectLight::nee, DirectLight::bsdf})
+    testing::expect_equal_means(both, means(direct, GlassShadows::straight));
 }
 
 }  // namespace

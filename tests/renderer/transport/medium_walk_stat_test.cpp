@@ -244,12 +244,7 @@ Moments means_of_ball(bool diffuse_door, bool absorbs_only, DirectLight direct, 
   options.glass_shadows = glass;
   options.camera.look_at = LookAt{Vec3(0, 0.4f, 3), Vec3::Zero(), Vec3(0, 1, 0)};
   options.camera.fov_degrees = 18.0f;
-  Moments moments;
-  for (std::uint32_t seed = 1; seed <= 24; ++seed) {
-    options.seed = seed;
-    moments.add(testing::moments_of(Renderer(builder.scene(), options).render()).mean());
-  }
-  return moments;
+  return testing::means_of_seeds(builder.scene(), options);
 }
 
 TEST(MediumWalk, LightSamplesAndBouncesAgreeOutsideOfABody) {
@@ -258,12 +253,10 @@ TEST(MediumWalk, LightSamplesAndBouncesAgreeOutsideOfABody) {
       for (const GlassShadows glass : {GlassShadows::refract, GlassShadows::straight}) {
         const Moments both = means_of_ball(diffuse_door, absorbs_only, DirectLight::mis, glass);
         const Moments bounces = means_of_ball(diffuse_door, absorbs_only, DirectLight::bsdf, glass);
-        const double error = std::hypot(both.standard_error(), bounces.standard_error());
-        EXPECT_LT(error, 0.04 * both.mean());
-        EXPECT_GT(testing::student_two_sided((both.mean() - bounces.mean()) / error, 46.0), 1e-4)
-            << (diffuse_door ? "diffuse" : "rough") << (absorbs_only ? ", absorbs " : ", scatters ")
-            << static_cast<int>(glass) << ": " << both.mean() << " and " << bounces.mean() << ", error "
-            << error;
+        SCOPED_TRACE(::testing::Message()
+                     << (diffuse_door ? "diffuse" : "rough") << (absorbs_only ? ", absorbs " : ", scatters ")
+                     << static_cast<int>(glass));
+        testing::expect_equal_means(both, bounces, 0.04);
       }
     }
   }

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numeric>
 
 #include "renderer/render.h"
 #include "renderer/transport/world.h"
@@ -105,21 +104,7 @@ Moments means(const scene::Material& glass, DirectLight direct, bool filled = fa
   options.glass_shadows = GlassShadows::straight;
   options.environment.constant = Color::Constant(0.2f);
   options.camera.look_at = LookAt{Vec3(0, 1.2f, 3), Vec3(0, 0.3f, 0), Vec3(0, 1, 0)};
-  Moments moments;
-  for (std::uint32_t seed = 1; seed <= 24; ++seed) {
-    options.seed = seed;
-    const Picture picture = Renderer(builder.scene(), options).render();
-    const std::vector<float>& v = picture.layers[0].values;
-    moments.add(std::accumulate(v.begin(), v.end(), 0.0) / static_cast<double>(v.size()));
-  }
-  return moments;
-}
-
-void expect_agreement(const Moments& both, const Moments& other) {
-  const double error = std::hypot(both.standard_error(), other.standard_error());
-  EXPECT_LT(error, 0.02 * both.mean());
-  EXPECT_GT(testing::student_two_sided((both.mean() - other.mean()) / error, 46.0), 1e-4)
-      << both.mean() << " and " << other.mean() << ", error " << error;
+  return testing::means_of_seeds(builder.scene(), options);
 }
 
 TEST(UnrefractedGlass, LightSamplesBouncesAndBothAgree) {
@@ -133,7 +118,7 @@ TEST(UnrefractedGlass, LightSamplesBouncesAndBothAgree) {
     for (const DirectLight direct : {DirectLight::nee, DirectLight::bsdf}) {
       // nee leaves out lamps that are visible only by refraction, so rough glass is compared by bounces.
       if (direct == DirectLight::nee && c.roughness > 0.0f) continue;
-      expect_agreement(both, means(green_glass(c.roughness), direct, c.filled));
+      testing::expect_equal_means(both, means(green_glass(c.roughness), direct, c.filled));
     }
   }
 }
