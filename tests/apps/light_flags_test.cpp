@@ -50,7 +50,8 @@ TEST_F(LightFlags, ScaleAndSwitchOffAndAreInTheRecipe) {
   EXPECT_GT(middle(plain), 0.3f);
   const std::vector<float>&once = plain.layers[0].values, &doubled = twice.layers[0].values;
   for (std::size_t i = 0; i < once.size(); ++i) ASSERT_EQ(2.0f * once[i], doubled[i]) << i;
-  for (const float value : render({"--lights", "*=off"}).layers[0].values) ASSERT_EQ(value, 0.0f);
+  const Picture dark = render({"--lights", "*=off"});
+  for (const float value : dark.layers[0].values) ASSERT_EQ(value, 0.0f);
   EXPECT_FLOAT_EQ(middle(render({"--lights", "*=off;panel=4"})), 1.0f);
   EXPECT_EQ(json::parse(twice.metadata.at("options"))["lights"], "noon=2;panel=2");
   EXPECT_FALSE(json::parse(plain.metadata.at("options")).contains("lights"));
