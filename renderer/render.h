@@ -156,8 +156,8 @@ class Renderer {
   /// Like report_cache(), but without reports of single instances and without the size of the cache before
   /// scouting.
   CacheStatistics set_up_cache();
-  /// The integrator of the options, or the one chosen for the scene (RenderOptions::choose_integrator).
-  Integrator integrator() const;
+  /// The options that may be chosen for the scene, as all pictures have them.
+  ChosenOptions chosen() const;
   const RenderStatistics& statistics() const;
 
  private:

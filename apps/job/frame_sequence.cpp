@@ -18,7 +18,7 @@ FrameSequence::FrameSequence(const RenderSettings& settings, const scene::Scene&
   shown_ = 0;
   choose_sky();
   move_to(0);
-  if (!needs_exposure_) choose_integrator();
+  if (!needs_exposure_) keep_choices();
 }
 
 renderer::Renderer FrameSequence::build(const scene::Scene& scene) {
@@ -47,17 +47,17 @@ void FrameSequence::measure_exposure(const std::function<bool()>& stop) {
   renderer_.set_options(options);
   move_to(0);
   needs_exposure_ = false;
-  choose_integrator();
+  keep_choices();
 }
 
 /// Frame 0 is shown, with the options of the frames.
-void FrameSequence::choose_integrator() {
-  if (settings_.render.choose_integrator) renderer::use_integrator(settings_.render, renderer_.integrator());
+void FrameSequence::keep_choices() {
+  renderer::use_chosen(settings_.render, renderer_.chosen());
 }
 
 void FrameSequence::begin() {
   int first = 0;
-  if (renderer::uses_cache(renderer_.integrator())) {
+  if (renderer::uses_cache(renderer_.chosen().integrator)) {
     const FrameList& frames = *settings_.frames.range;
     first = frames.first();
     for (const int frame : frames.is_single() ? std::vector<int>{} : sampled_frames(frames.numbers())) {

@@ -46,7 +46,7 @@ class FrameSequence {
  private:
   renderer::Renderer build(const scene::Scene& scene);
   void choose_sky();
-  void choose_integrator();
+  void keep_choices();
   void show_time(int frame);
   void move_to(int frame);
 

@@ -154,7 +154,7 @@ PicturePointer Running::render(const py::object& progress, const py::object& sto
     }
     has_new_options_ = false;
     apps::RenderSettings settings = settings_;
-    if (settings.render.choose_integrator) renderer::use_integrator(settings.render, renderer_->integrator());
+    renderer::use_chosen(settings.render, renderer_->chosen());
     report.warnings = built_->warnings;
     renderer::Picture made = renderer_->render(waiting.callbacks());
     report.total_seconds = seconds_since(start);

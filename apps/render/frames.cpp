@@ -41,7 +41,7 @@ class FrameRun {
     begin_ = Clock::now();
     const std::string before = state_before();
     FrameSequence sequence = make_sequence();
-    check_frame_groups(settings_.frames, sequence.renderer().integrator());
+    check_frame_groups(settings_.frames, sequence.renderer().chosen().integrator);
     if (before.empty()) note_part(sequence, all, existing);
     warnings_of_loading_ = console_.report.warnings.size();
     const std::optional<int> done = begin(sequence, before);

@@ -37,7 +37,7 @@ int render_stills(const RenderSettings& settings, const scene::Scene& scene, Pic
       console.report.warnings.resize(warnings_of_loading);
       renderer.set_camera(picture.render.camera);
     }
-    if (picture.render.choose_integrator) renderer::use_integrator(picture.render, renderer.integrator());
+    renderer::use_chosen(picture.render, renderer.chosen());
     maker.begin(picture, start);
     console.warn(renderer.statistics().warnings);
     if (const int number = team.signal(); number != 0)

@@ -76,6 +76,7 @@ std::string stats_json(const RenderSettings& settings, const RunReport& report) 
   if (s.estimated_error) json["estimated_error"] = *s.estimated_error;
   if (!s.denoiser.empty()) json["denoiser"] = s.denoiser;
   if (s.bounces_of_paths) json["bounces_of_paths"] = *s.bounces_of_paths;
+  if (s.light_behind_walls) json["light_behind_walls"] = *s.light_behind_walls;
   json["exposure"] = report.exposure;
   if (report.signal != 0) json["signal"] = report.signal;
   json["seconds"] = seconds(report, with_cache);

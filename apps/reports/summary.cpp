@@ -109,6 +109,10 @@ std::string summary(const RenderSettings& settings, const RunReport& report) {
         renderer::uses_cache(settings.render.integrator) ? "path" : "nrc",
         renderer::uses_cache(settings.render.integrator) ? "renders without a cache" : "uses a cache");
   }
+  if (s.light_behind_walls) {
+    text += fmt::format("watertight {}, chosen because without shadows there is {:.3g} times the light\n",
+                        enum_name(settings.render.watertight), *s.light_behind_walls);
+  }
   if (!s.denoiser.empty()) text += fmt::format("denoiser  {}\n", s.denoiser);
   text += report.team_summary;
   if (!settings.exposure) {

@@ -280,9 +280,10 @@ std::vector<Option> picture_options(RenderOptions& options) {
                    "Light through solid glass: refracted, but found only by bounces, which miss suns and "
                    "small lamps (refract); or not refracted, as through panes (straight: an approximation, "
                    "default of bare, preview, standard and final)"));
-  light.add(choice(
-      "watertight", watertight, kOnOff,
-      "Let no ray slip between triangles that share an edge; off is faster if triangles are long and thin"));
+  light.add(
+      choice("watertight", watertight,
+             "Let no ray slip between triangles that share an edge; off is faster outdoors; auto (default "
+             "of preview, standard and final): off unless light behind walls would show"));
   Option& reach = light.add(number("ao-distance", ao_distance,
                                    {.min = 0.0, .max = 3.4e38, .excludes_min = true, .infinity = true},
                                    "METRES", "Reach of ambient occlusion; inf is allowed"));

@@ -287,8 +287,7 @@ bool SceneSweep::render(const Run& run, const Picture& reference, std::size_t& n
   };
   if (series.named) {
     // The choice depends on the view only, so all seeds have the same one.
-    if (settings.render.choose_integrator)
-      renderer::use_integrator(series.settings.render, renderer.integrator());
+    renderer::use_chosen(series.settings.render, renderer.chosen());
     const Picture picture = renderer.render(callbacks());
     const RenderStatistics& statistics = renderer.statistics();
     require_good_end(statistics, false);

@@ -25,7 +25,7 @@ ViewSession::ViewSession(const std::string& scene, std::vector<std::string> word
       outline_(outline_of(scene_.scene())) {
   const Task first{.stage = Stage::preview, .settings = base_};
   renderer_.emplace(scene_.scene(), options_of(first));
-  integrator_ = renderer_->integrator();
+  chosen_ = renderer_->chosen();
   warnings_ = scene_.scene().warnings;
   const std::vector<std::string>& more = renderer_->statistics().warnings;
   warnings_.insert(warnings_.end(), more.begin(), more.end());
@@ -138,8 +138,7 @@ bool ViewSession::is_overtaken(const Task& task) {
 renderer::RenderOptions ViewSession::options_of(const Task& task) const {
   renderer::RenderOptions final = task.settings.render;
   // A final picture chooses by its own view, as render does; frames share a cache, or none.
-  if (task.stage != Stage::final && final.choose_integrator && integrator_)
-    renderer::use_integrator(final, *integrator_);
+  if (task.stage != Stage::final && chosen_) renderer::use_chosen(final, *chosen_);
   if (!task.layer.empty() && task.stage != Stage::draft) {
     for (const auto& [name, aov] : renderer::kEnumNames<renderer::Aov>) {
       if (name == task.layer && !renderer::has(final.aovs, aov)) final.aovs.push_back(aov);

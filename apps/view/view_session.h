@@ -64,11 +64,11 @@ class ViewSession : public PictureSource {
   LiveScene scene_;
   const SceneOutline outline_;
   std::optional<renderer::Renderer> renderer_;
-  std::optional<renderer::Integrator> integrator_;  ///< that was chosen for the scene
-  bool shares_cache_ = false;                       ///< the frames have begun
-  renderer::EnvironmentOptions environment_;        ///< of the last picture
-  bool moved_ = false;                              ///< the renderer has not seen the scene as it is
-  bool new_light_ = true;                           ///< that the cache has not learned yet
+  std::optional<renderer::ChosenOptions> chosen_;  ///< for the scene
+  bool shares_cache_ = false;                      ///< the frames have begun
+  renderer::EnvironmentOptions environment_;       ///< of the last picture
+  bool moved_ = false;                             ///< the renderer has not seen the scene as it is
+  bool new_light_ = true;                          ///< that the cache has not learned yet
   int frame_ = 0;
   double divisor_ = 4.0;
 

@@ -28,9 +28,9 @@ int rows_of_band(int width, int height, const ScaleDown& scale) {
 }
 
 void prepare_denoise(Denoiser& denoiser, int width, int height, const FilterOptions& options, bool guides,
-                     const ScaleDown& scale) {
+                     const ScaleDown& scale, const std::optional<PixelRect>& noisy_guides) {
   if (rows_of_band(width, height, scale) * scale.factor() >= height)
-    denoiser.prepare(width, height, options, guides);
+    denoiser.prepare(width, height, options, guides, noisy_guides);
 }
 
 std::optional<DenoisedRows> denoise_rows(Denoiser& denoiser, const NoisyPicture& picture,
@@ -39,7 +39,11 @@ std::optional<DenoisedRows> denoise_rows(Denoiser& denoiser, const NoisyPicture&
   const int margin = rows.margin + scale.reach();
   const int top = std::max(rows.begin * scale.factor() - margin, 0) / kAlignment * kAlignment;
   const int bottom = std::min(rows.end * scale.factor() + margin, picture.height);
-  NoisyImage image{picture.width, bottom - top};
+  NoisyImage image{.width = picture.width, .height = bottom - top};
+  if (picture.noisy_guides) {
+    const auto& [x0, y0, x1, y1] = *picture.noisy_guides;
+    image.noisy_guides = {x0, std::max(y0, top) - top, x1, std::min(y1, bottom) - top};
+  }
   const bool guides = picture.albedo && picture.normal;
   const std::pair<const ReadRows*, std::vector<float>*> planes[] = {
       {&picture.color, &image.color},
@@ -69,7 +73,8 @@ std::optional<DenoisedRows> denoise_rows(Denoiser& denoiser, const NoisyPicture&
 std::optional<DenoisedRows> denoise(Denoiser& denoiser, const NoisyPicture& picture, FilterOptions options,
                                     const ScaleDown& scale, const DenoiseProgress& progress) {
   options.scale = exposure_of(picture.width, picture.height, picture.color);
-  prepare_denoise(denoiser, picture.width, picture.height, options, picture.albedo && picture.normal, scale);
+  prepare_denoise(denoiser, picture.width, picture.height, options, picture.albedo && picture.normal, scale,
+                  picture.noisy_guides);
   const int rows = picture.height / scale.factor();
   const int step = rows_of_band(picture.width, picture.height, scale);
   if (step >= rows) return denoise_rows(denoiser, picture, {0, rows}, options, scale, progress);

@@ -15,9 +15,10 @@ struct NoisyPicture {
   int width = 0;   ///< a multiple of the factor by which it is scaled
   int height = 0;  ///< the same
   ReadRows color;
-  ReadRows albedo;  ///< empty: no guides
-  ReadRows normal;  ///< the same
-  ReadRows alpha;   ///< 1 float a pixel; empty: none
+  ReadRows albedo;                        ///< empty: no guides
+  ReadRows normal;                        ///< the same
+  ReadRows alpha;                         ///< 1 float a pixel; empty: none
+  std::optional<PixelRect> noisy_guides;  ///< NoisyImage::noisy_guides
 };
 
 /// Rows of a denoised picture.
@@ -45,7 +46,7 @@ int rows_of_band(int width, int height, const ScaleDown& scale);
 
 /// Sets up what denoise() needs for a picture that is taken at a time (Denoiser::prepare).
 void prepare_denoise(Denoiser& denoiser, int width, int height, const FilterOptions& options, bool guides,
-                     const ScaleDown& scale);
+                     const ScaleDown& scale, const std::optional<PixelRect>& noisy_guides = {});
 
 /// All rows, with exposure_of() the picture as FilterOptions::scale.
 std::optional<DenoisedRows> denoise(Denoiser& denoiser, const NoisyPicture& picture, FilterOptions options,

@@ -15,8 +15,8 @@
 namespace gatelight::renderer {
 namespace {
 
-/// The share of a call's time that each of both guides takes.
-constexpr double kShareOfGuide = 0.2;
+/// The share of a call's time that both guides take.
+constexpr double kShareOfGuides = 0.4;
 
 struct Progress {
   const DenoiseProgress& report;
@@ -36,6 +36,10 @@ bool monitor(void* user, double done) {
 int mebibytes(std::size_t bytes) {
   constexpr std::size_t kMax = std::numeric_limits<int>::max();
   return static_cast<int>(std::min(bytes >> 20, kMax));
+}
+
+bool is_empty(const PixelRect& rect) {
+  return rect.width() <= 0 || rect.height() <= 0;
 }
 
 bool has_guides(const NoisyImage& image) {
@@ -74,11 +78,13 @@ class Denoiser::Filter {
   }
 
   const FilterKind& kind() const { return kind_; }
-  /// The pixels must outlive execute().
-  void set_image(const char* name, const std::vector<float>& pixels) {
+  /// The pixels must outlive execute(). Rows of the plane have `stride` pixels, of which the first one is at
+  /// `begin`.
+  void set_image(const char* name, const std::vector<float>& pixels, std::size_t begin, std::size_t stride) {
+    constexpr std::size_t kPixel = 3 * sizeof(float);
     api_.SetSharedFilterImage(filter_.get(), name, const_cast<float*>(pixels.data()), oidn::kFloat3,
                               static_cast<std::size_t>(kind_.width), static_cast<std::size_t>(kind_.height),
-                              0, 0, 0);
+                              begin * kPixel, kPixel, stride * kPixel);
   }
   void set_scale(float scale) { api_.SetFilterFloat(filter_.get(), "inputScale", scale); }
   void commit() {
@@ -144,20 +150,22 @@ Denoiser::Filter& Denoiser::filter_of(const FilterKind& kind) {
   return *filters_.front();
 }
 
-void Denoiser::prepare(int width, int height, const FilterOptions& options, bool guides) {
+void Denoiser::prepare(int width, int height, const FilterOptions& options, bool guides,
+                       const std::optional<PixelRect>& noisy) {
   const std::lock_guard lock(mutex_);
   const schedule::Section section("beside");
   const std::vector<float> none(3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
   // The largest comes first: all of them share its memory.
-  const auto make = [&](FilterKind::Plane plane) {
-    Filter& filter = filter_of(kind_of(plane, width, height, options, guides));
-    set_images(filter, none, none, none);
+  const auto make = [&](FilterKind::Plane plane, const PixelRect& part) {
+    Filter& filter = filter_of(kind_of(plane, part.width(), part.height(), options, guides));
+    set_images(filter, none, none, none, part, width);
     filter.commit();
   };
-  make(FilterKind::Plane::color);
-  if (!guides || options.prefilter != Prefilter::accurate) return;
-  make(FilterKind::Plane::albedo);
-  make(FilterKind::Plane::normal);
+  const PixelRect all{0, 0, width, height}, part = noisy.value_or(all);
+  make(FilterKind::Plane::color, all);
+  if (!guides || options.prefilter != Prefilter::accurate || is_empty(part)) return;
+  make(FilterKind::Plane::albedo, part);
+  make(FilterKind::Plane::normal, part);
 }
 
 FilterKind Denoiser::kind_of(FilterKind::Plane plane, int width, int height, const FilterOptions& options,
@@ -169,13 +177,15 @@ FilterKind Denoiser::kind_of(FilterKind::Plane plane, int width, int height, con
 }
 
 void Denoiser::set_images(Filter& filter, const std::vector<float>& plane, const std::vector<float>& albedo,
-                          const std::vector<float>& normal) {
+                          const std::vector<float>& normal, const PixelRect& part, int width) {
   constexpr const char* kNames[] = {"color", "albedo", "normal"};
-  filter.set_image(kNames[static_cast<std::size_t>(filter.kind().plane)], plane);
-  filter.set_image("output", plane);
+  const auto stride = static_cast<std::size_t>(width);
+  const std::size_t begin = static_cast<std::size_t>(part.y0) * stride + static_cast<std::size_t>(part.x0);
+  filter.set_image(kNames[static_cast<std::size_t>(filter.kind().plane)], plane, begin, stride);
+  filter.set_image("output", plane, begin, stride);
   if (!filter.kind().guides) return;
-  filter.set_image("albedo", albedo);
-  filter.set_image("normal", normal);
+  filter.set_image("albedo", albedo, begin, stride);
+  filter.set_image("normal", normal, begin, stride);
 }
 
 bool Denoiser::filter(NoisyImage& image, const FilterOptions& options, const DenoiseProgress& progress) {
@@ -192,16 +202,26 @@ bool Denoiser::filter(NoisyImage& image, const FilterOptions& options, const Den
   return complete;
 }
 
+/// Where they are noisy.
+bool Denoiser::filter_guides(NoisyImage& image, const FilterOptions& options,
+                             const DenoiseProgress& progress) {
+  const PixelRect part = image.noisy_part();
+  double begin = 0.0;
+  for (const auto& [plane, guide] :
+       {std::pair(FilterKind::Plane::albedo, &image.albedo), {FilterKind::Plane::normal, &image.normal}}) {
+    Filter& filter = filter_of(kind_of(plane, part.width(), part.height(), options, true));
+    set_images(filter, *guide, {}, {}, part, image.width);
+    if (!filter.execute({progress, begin, begin + 0.5 * kShareOfGuides})) return false;
+    begin += 0.5 * kShareOfGuides;
+  }
+  return true;
+}
+
 bool Denoiser::filter_all(NoisyImage& image, const FilterOptions& options, const DenoiseProgress& progress) {
   double begin = 0.0;
-  if (options.prefilter == Prefilter::accurate && has_guides(image)) {
-    for (const auto& [plane, guide] :
-         {std::pair(FilterKind::Plane::albedo, &image.albedo), {FilterKind::Plane::normal, &image.normal}}) {
-      Filter& filter = filter_of(kind_of(plane, image.width, image.height, options, true));
-      set_images(filter, *guide, {}, {});
-      if (!filter.execute({progress, begin, begin + kShareOfGuide})) return false;
-      begin += kShareOfGuide;
-    }
+  if (options.prefilter == Prefilter::accurate && has_guides(image) && !is_empty(image.noisy_part())) {
+    if (!filter_guides(image, options, progress)) return false;
+    begin = kShareOfGuides;
   }
   const double end = image.alpha.empty() ? 1.0 : std::midpoint(begin, 1.0);
   return filter_plane(image.color, image, options, progress, begin, end) &&
@@ -212,7 +232,7 @@ bool Denoiser::filter_plane(std::vector<float>& color, const NoisyImage& guides,
                             const DenoiseProgress& progress, double begin, double end) {
   Filter& filter =
       filter_of(kind_of(FilterKind::Plane::color, guides.width, guides.height, options, has_guides(guides)));
-  set_images(filter, color, guides.albedo, guides.normal);
+  set_images(filter, color, guides.albedo, guides.normal, {0, 0, guides.width, guides.height}, guides.width);
   filter.set_scale(options.scale);
   return filter.execute({progress, begin, end});
 }

@@ -5,10 +5,12 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "renderer/denoise/oidn_library.h"
+#include "renderer/image/pixel_rect.h"
 #include "renderer/settings/enums.h"
 
 namespace gatelight::renderer {
@@ -21,6 +23,10 @@ struct NoisyImage {
   std::vector<float> albedo;  ///< 0 to 1; empty: no guides
   std::vector<float> normal;  ///< -1 to 1, in any space, of any length; empty: no guides
   std::vector<float> alpha;   ///< 1 float a pixel, 0 to 1; empty: none
+  /// Outside of these pixels the guides have no noise, except at edges; nullopt: they have it everywhere.
+  std::optional<PixelRect> noisy_guides;
+
+  PixelRect noisy_part() const { return noisy_guides.value_or(PixelRect{0, 0, width, height}); }
 };
 
 enum class DenoiseQuality : std::uint8_t { fast, high };
@@ -36,7 +42,7 @@ struct FilterOptions {
 struct FilterKind {
   enum class Plane : std::uint8_t { color, albedo, normal };
   Plane plane = Plane::color;
-  int width = 0;
+  int width = 0;  ///< of the part that is filtered
   int height = 0;
   bool fast = false;          ///< the smaller network
   bool guides = false;        ///< of `color`
@@ -57,22 +63,26 @@ class Denoiser {
   Denoiser(const OidnLibrary& library, int threads, std::size_t memory_limit_bytes = 0);
   ~Denoiser();
 
-  /// Replaces colours and alpha by denoised ones, and the guides by denoised ones if they are filtered. Alpha
+  /// Replaces colours and alpha by denoised ones, and the noisy guides if they are filtered. Alpha
   /// stays 0 or 1 where all pixels around are. The same bits for any number of threads. Returns false where
   /// `progress` cancelled; the image is then undefined. Throws OutOfMemory, or MissingDenoiser with the
   /// library's message. Source: "RT" filter, "Open Image Denoise API".
   bool filter(NoisyImage& image, const FilterOptions& options, const DenoiseProgress& progress = {});
   /// Sets up what filter() needs for images of this size, with or without guides: one thread works for some
-  /// tens of milliseconds, which can be done beside other work. Throws as filter() does.
-  void prepare(int width, int height, const FilterOptions& options, bool guides);
+  /// tens of milliseconds, which can be done beside other work. `noisy`: NoisyImage::noisy_guides. Throws as
+  /// filter() does.
+  void prepare(int width, int height, const FilterOptions& options, bool guides,
+               const std::optional<PixelRect>& noisy = {});
 
  private:
   class Filter;
   Filter& filter_of(const FilterKind& kind);
   static FilterKind kind_of(FilterKind::Plane plane, int width, int height, const FilterOptions& options,
                             bool guides);
+  /// A part of planes whose rows have `width` pixels.
   static void set_images(Filter& filter, const std::vector<float>& plane, const std::vector<float>& albedo,
-                         const std::vector<float>& normal);
+                         const std::vector<float>& normal, const PixelRect& part, int width);
+  bool filter_guides(NoisyImage& image, const FilterOptions& options, const DenoiseProgress& progress);
   bool filter_all(NoisyImage& image, const FilterOptions& options, const DenoiseProgress& progress);
   /// Filters `color`, 3 floats a pixel, in place.
   bool filter_plane(std::vector<float>& color, const NoisyImage& guides, const FilterOptions& options,

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <iterator>
 #include <numeric>
 
@@ -90,6 +91,25 @@ void complete_guides(Samples& samples) {
   for (std::size_t i = 2; i < samples.normal.size(); i += 3) samples.normal[i] = 1.0f;
 }
 
+/// Metadata: NoisyPicture::noisy_guides of samples of this size, as x0,y0,x1,y1/WIDTHxHEIGHT.
+constexpr const char* kNoisyGuides = "noisy-guides";
+
+std::string text_of(const PixelRect& r, int width, int height) {
+  return fmt::format("{},{},{},{}/{}x{}", r.x0, r.y0, r.x1, r.y1, width, height);
+}
+
+/// Of samples that are as they were written; else nothing.
+std::optional<PixelRect> noisy_guides_of(const Picture& picture, int width, int height) {
+  const auto found = picture.metadata.find(kNoisyGuides);
+  if (found == picture.metadata.end()) return {};
+  PixelRect r;
+  if (std::sscanf(found->second.c_str(), "%d,%d,%d,%d", &r.x0, &r.y0, &r.x1, &r.y1) != 4) return {};
+  const bool inside =
+      0 <= r.x0 && r.x0 <= r.x1 && r.x1 <= width && 0 <= r.y0 && r.y0 <= r.y1 && r.y1 <= height;
+  if (!inside || text_of(r, width, height) != found->second) return {};
+  return r;
+}
+
 /// The size of the samples over that of the picture; 0: there are none.
 int factor_of(const Picture& picture) {
   for (int factor = 1; factor <= kMaxFactor; ++factor) {
@@ -106,6 +126,7 @@ Samples own_samples(const Picture& picture, const LayersToDenoise& layers) {
   if (layers.normal) samples.normal = join_layers<3>(picture, samples, kNormal);
   if (picture.find(name_of(kAlpha, factor, 0, 0))) samples.alpha = join_layers<1>(picture, samples, kAlpha);
   complete_guides(samples);
+  samples.noisy_guides = noisy_guides_of(picture, samples.width, samples.height);
   return samples;
 }
 
@@ -141,6 +162,8 @@ void add_denoising_layers(Picture& picture, const NoisyPicture& samples, int fac
   add(kAlbedo, samples.albedo, {"R", "G", "B"});
   add(kNormal, samples.normal, {"X", "Y", "Z"});
   add(kAlpha, samples.alpha, {"A"});
+  if (samples.noisy_guides)
+    picture.metadata[kNoisyGuides] = text_of(*samples.noisy_guides, samples.width, samples.height);
 }
 
 bool is_denoising_layer(const std::string& name) {
@@ -155,7 +178,8 @@ NoisyPicture Samples::noisy() const {
           rows_of(color, width),
           rows_of(albedo, width),
           rows_of(normal, width),
-          rows_of(alpha, width, 1)};
+          rows_of(alpha, width, 1),
+          noisy_guides};
 }
 
 bool has_denoising_layers(const Picture& picture) {

@@ -13,7 +13,7 @@ namespace gatelight::renderer {
 /// Appends the layers of Aov::denoising: denoising-color, -albedo, -normal and, where there is one, -alpha,
 /// in full precision. Where the samples are of `factor` times the picture's size, each pixel of the picture
 /// has factor x factor of theirs, and each of these has its own layers, with the suffix -XY: its column and
-/// row. So merge and crop treat them as all other layers.
+/// row. So merge and crop treat them as all other layers. Metadata keep NoisyPicture::noisy_guides.
 void add_denoising_layers(Picture& picture, const NoisyPicture& samples, int factor);
 
 bool is_denoising_layer(const std::string& name);
@@ -35,6 +35,7 @@ struct Samples {
   int height = 0;
   std::vector<float> color, albedo, normal;  ///< 3 floats a pixel; without guides the last two are empty
   std::vector<float> alpha;                  ///< 1 float a pixel; empty without one
+  std::optional<PixelRect> noisy_guides;     ///< NoisyPicture::noisy_guides
 
   /// The samples must outlive it.
   NoisyPicture noisy() const;

@@ -34,16 +34,20 @@ PixelRect picture_rect(const Film& film, const ScaleDown& scale) {
 }
 
 /// The samples with their guides. Rows count from the top of the film.
-NoisyPicture noisy(const Film& film, const RenderOptions& options, Plane color) {
+NoisyPicture noisy(const Film& film, const Finishing& f, Plane color) {
   const auto rows = [&film](Plane plane) -> ReadRows {
     return [&film, plane](int first, int end) {
       return film.plane(plane, film.rect().y0 + first, film.rect().y0 + end);
     };
   };
-  NoisyPicture picture{film.rect().width(), film.rect().height(), rows(color), rows(Plane::albedo),
-                       rows(Plane::normal)};
+  NoisyPicture picture{.width = film.rect().width(),
+                       .height = film.rect().height(),
+                       .color = rows(color),
+                       .albedo = rows(Plane::albedo),
+                       .normal = rows(Plane::normal),
+                       .noisy_guides = f.noisy_guides};
   // Occlusion does not depend on the reflectance of a surface.
-  if (options.integrator == Integrator::ao || options.integrator == Integrator::nao) {
+  if (f.options.integrator == Integrator::ao || f.options.integrator == Integrator::nao) {
     picture.albedo = [&film](int first, int end) {
       return std::vector<float>(
           3 * static_cast<std::size_t>(end - first) * static_cast<std::size_t>(film.rect().width()), 1.0f);
@@ -74,7 +78,7 @@ std::optional<DenoisedHalves> denoised_halves(const Film& film, const Finishing&
   for (const std::size_t h : {0u, 1u}) {
     const Plane plane = h == 0 ? Plane::half_a : Plane::half_b;
     const auto report = [&](double done) { return !progress || progress(0.5 * (h + done)); };
-    auto denoised = denoise_rows(*f.denoiser, noisy(film, f.options, plane), rows, filter, f.scale, report);
+    auto denoised = denoise_rows(*f.denoiser, noisy(film, f, plane), rows, filter, f.scale, report);
     if (!denoised) return std::nullopt;
     halves[h] = std::move(denoised->color);
   }
@@ -212,7 +216,7 @@ class Finisher {
 
   /// The samples, with an alpha where the background is separate.
   NoisyPicture samples() const {
-    NoisyPicture picture = noisy(film_, options_, Plane::mean);
+    NoisyPicture picture = noisy(film_, f_, Plane::mean);
     if (options_.background.is_separate())
       picture.alpha = [this](int first, int end) { return rows_of_alpha(film_, shadows_, first, end); };
     return picture;
@@ -247,7 +251,7 @@ class Finisher {
       (find_aov(name) ? passes : groups).push_back(&layer);
       if (std::all_of(layer.values.begin(), layer.values.end(), [](float value) { return value == 0.0f; }))
         continue;
-      NoisyPicture light = noisy(film_, options_, Plane::mean);
+      NoisyPicture light = noisy(film_, f_, Plane::mean);
       light.color = [this, number](int first, int end) {
         return film_.part(number, film_.rect().y0 + first, film_.rect().y0 + end);
       };

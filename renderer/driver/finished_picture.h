@@ -31,12 +31,13 @@ using CaughtShadows = std::function<std::vector<float>(const PixelRect& rect)>;
 
 /// How a film becomes a picture.
 struct Finishing {
-  const RenderOptions& options;  ///< of the film
-  Denoiser* denoiser = nullptr;  ///< null: the means of the samples
-  ScaleDown scale;               ///< from the film to the picture
-  CaughtShadows shadows;         ///< empty: none
-  DenoiseProgress progress;      ///< false cancels denoising
-  std::vector<Layer> motion;     ///< of Aov::motion and Aov::motion_next
+  const RenderOptions& options;           ///< of the film
+  Denoiser* denoiser = nullptr;           ///< null: the means of the samples
+  ScaleDown scale;                        ///< from the film to the picture
+  std::optional<PixelRect> noisy_guides;  ///< NoisyPicture::noisy_guides
+  CaughtShadows shadows;                  ///< empty: none
+  DenoiseProgress progress;               ///< false cancels denoising
+  std::vector<Layer> motion;              ///< of Aov::motion and Aov::motion_next
   /// Changes what is denoised, before a background is put behind it; empty: not needed. There is no estimate
   /// of the error then.
   std::function<void(DenoisedRows& denoised)> after_denoising;

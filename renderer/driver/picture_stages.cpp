@@ -27,8 +27,12 @@ CaughtShadows caught_shadows(const PreparedPicture& picture, double samples_per_
 }
 
 Finishing finishing(const PreparedPicture& picture, double samples_per_pixel, DenoiseProgress progress) {
-  return {picture.options, picture.denoiser.get(), picture.scale, caught_shadows(picture, samples_per_pixel),
-          std::move(progress)};
+  return {.options = picture.options,
+          .denoiser = picture.denoiser.get(),
+          .scale = picture.scale,
+          .noisy_guides = picture.noisy_guides,
+          .shadows = caught_shadows(picture, samples_per_pixel),
+          .progress = std::move(progress)};
 }
 
 /// For the caller's arena.
@@ -121,7 +125,7 @@ void prepare_to_finish(const PreparedPicture& picture) {
   const RenderOptions& options = picture.options;
   failure_to_denoise([&] {  // finish() reports it
     prepare_denoise(*picture.denoiser, picture.region.width(), picture.region.height(),
-                    {.prefilter = options.denoise.prefilter}, true, picture.scale);
+                    {.prefilter = options.denoise.prefilter}, true, picture.scale, picture.noisy_guides);
   });
 }
 

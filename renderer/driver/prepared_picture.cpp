@@ -12,12 +12,13 @@
 #include "base/platform/threads.h"
 #include "renderer/cache/cache_model.h"
 #include "renderer/driver/background.h"
-#include "renderer/driver/chosen_integrator.h"
+#include "renderer/driver/scene_choices.h"
 #include "renderer/film/camera_choice.h"
 #include "renderer/film/memory_estimate.h"
 #include "renderer/light/soft_sky.h"
 #include "renderer/settings/resolved_options.h"
 #include "renderer/transport/dark_share.h"
+#include "renderer/transport/noisy_guides.h"
 #include "renderer/transport/view_check.h"
 
 namespace gatelight::renderer {
@@ -126,7 +127,7 @@ void PreparedPicture::set_options(const RenderOptions& chosen) {
   const Clock::time_point start = Clock::now();
   build_world(judges_view() ? options_to_judge(false) : world_options());
   set_camera(options.camera);
-  choose_integrator();
+  choose_by_paths();
   // A loaded cache needs no more steps, unless the caller sets a number.
   steps_chosen = !options.cache.train_steps && options.cache.cache_in.empty();
   if (steps_chosen) {
@@ -219,18 +220,24 @@ void PreparedPicture::describe() {
   statistics.light_bytes = world->lights.bytes() + world->light_arrays.bytes();
 }
 
-void PreparedPicture::choose_integrator() {
-  if (!options.choose_integrator) return;
-  const double bounces = arena.execute([&] { return bounces_of_paths(*world, camera, region, options); });
-  statistics.bounces_of_paths = bounces;
-  options_of_picture = with_integrator(options_of_picture, bounces);
+void PreparedPicture::choose_by_paths() {
+  if (!options.choose_integrator && options.watertight != Watertight::automatic) return;
+  const PilotPaths paths = arena.execute([&] { return trace_pilot_paths(*world, camera, region, options); });
+  if (options.choose_integrator) statistics.bounces_of_paths = paths.bounces;
+  if (options.watertight == Watertight::automatic)
+    statistics.light_behind_walls = paths.unshadowed / std::max(paths.light, 1e-30);
+  options_of_picture = with_choices(options_of_picture, paths);
   options = options_of_film(options_of_picture);
+  build_world(world_options());
 }
 
 WorldOptions PreparedPicture::world_options() const {
-  return {
-      options.environment,   options.light_selection, {threads, options.isa, bvh_budget, options.watertight},
-      options.glass_shadows, options.light_groups,    options.background};
+  // Until it is chosen, a world that is there serves.
+  const bool watertight = options.watertight == Watertight::automatic
+                              ? world && built_.acceleration.watertight
+                              : options.watertight == Watertight::on;
+  return {options.environment,   options.light_selection, {threads, options.isa, bvh_budget, watertight},
+          options.glass_shadows, options.light_groups,    options.background};
 }
 
 void PreparedPicture::scene_moved(const CameraOptions& chosen) {
@@ -269,6 +276,7 @@ void PreparedPicture::set_camera(const CameraOptions& chosen) {
   // Rays of an orthographic camera begin at many places.
   if (!view.orthographic) camera.set_around(volumes_around(*world, view.transform.translation()));
   choose_sky();
+  find_noisy_guides();
   statistics.warnings.clear();
   for (std::string warning :
        {denoiser_warning(chosen_denoiser), sky_warning(scene, options, asks_for_sky), world->media.warning(),
@@ -276,6 +284,13 @@ void PreparedPicture::set_camera(const CameraOptions& chosen) {
         view_warning(*world, camera, options.width, options.height)}) {
     if (!warning.empty()) statistics.warnings.push_back(std::move(warning));
   }
+}
+
+void PreparedPicture::find_noisy_guides() {
+  noisy_guides.reset();
+  if (!denoiser || options.denoise.prefilter != Prefilter::accurate) return;
+  PixelRect r = arena.execute([&] { return renderer::noisy_guides(*world, camera, region, options); });
+  noisy_guides = {r.x0 - region.x0, r.y0 - region.y0, r.x1 - region.x0, r.y1 - region.y0};
 }
 
 Camera PreparedPicture::camera_of_size(int width, int height) const {

@@ -66,6 +66,7 @@ struct PreparedPicture {
   FilterSampler filter{PixelFilter::box, 1.0f};
   ScaleDown scale{1, PixelFilter::box, 1.0f};  ///< from the film to the picture
   std::unique_ptr<Denoiser> denoiser;          ///< null: the picture is as traced
+  std::optional<PixelRect> noisy_guides;       ///< NoisyPicture::noisy_guides of the view
   std::optional<World> world;                  ///< empty only during construction
   /// Whether the options ask for a soft sky that the scene may need: it has no lights but what glows.
   bool asks_for_sky = false;
@@ -84,11 +85,12 @@ struct PreparedPicture {
   double dark_with(bool sky);
   /// Lights the world with the soft sky where the view needs it.
   void choose_sky();
+  void find_noisy_guides();
   /// Fills in the statistics of the world.
   void describe();
   WorldOptions world_options() const;
   /// Applies RenderOptions::choose_integrator, for the first view.
-  void choose_integrator();
+  void choose_by_paths();
 
   WorldOptions built_;      ///< of the present world
   std::uint32_t seed_ = 0;  ///< of the whole animation

@@ -136,8 +136,9 @@ CacheStatistics Renderer::set_up_cache() {
   return p.arena.execute([&] { return CacheSession(*p.world, p.camera, p.region, p.options).statistics(); });
 }
 
-Integrator Renderer::integrator() const {
-  return implementation_->picture.options.integrator;
+ChosenOptions Renderer::chosen() const {
+  const RenderOptions& options = implementation_->picture.options;
+  return {options.integrator, options.watertight};
 }
 
 const RenderStatistics& Renderer::statistics() const {

@@ -49,6 +49,9 @@ template <>
 inline constexpr Choice<GlassShadows> kEnumNames<GlassShadows>[] = {{"refract", GlassShadows::refract},
                                                                     {"straight", GlassShadows::straight}};
 template <>
+inline constexpr Choice<Watertight> kEnumNames<Watertight>[] = {
+    {"on", Watertight::on}, {"off", Watertight::off}, {"auto", Watertight::automatic}};
+template <>
 inline constexpr Choice<Projection> kEnumNames<Projection>[] = {{"camera", Projection::camera},
                                                                 {"perspective", Projection::perspective},
                                                                 {"orthographic", Projection::orthographic},

@@ -22,6 +22,12 @@ enum class GlassShadows : std::uint8_t {
   refract,   ///< shadow rays end at the glass, and only bounces find refracted light
   straight,  ///< rays pass tinted but not refracted, as through panes (an approximation)
 };
+/// Whether no ray slips between triangles that share an edge.
+enum class Watertight : std::uint8_t {
+  on,
+  off,        ///< rays are faster, and a few in ten million slip through
+  automatic,  ///< off unless light behind walls would show (driver/scene_choices.h)
+};
 /// How the scene is projected onto the picture.
 enum class Projection : std::uint8_t {
   camera,  ///< as the camera of the file

@@ -64,7 +64,7 @@ inline constexpr int kNoDepthLimit = 1 << 30;
 struct RenderOptions {
   Integrator integrator = Integrator::path;
   /// With nrc: use path if the light paths of the scene are too short for a cache to pay off
-  /// (driver/chosen_integrator.h).
+  /// (driver/scene_choices.h).
   bool choose_integrator = false;
   int width = 960;
   int height = 540;
@@ -89,7 +89,7 @@ struct RenderOptions {
   DirectLight direct = DirectLight::mis;
   LightSelection light_selection = LightSelection::tree;
   GlassShadows glass_shadows = GlassShadows::refract;
-  bool watertight = true;     ///< no ray slips between triangles that share an edge
+  Watertight watertight = Watertight::on;
   float clamp = 0.0f;         ///< largest luminance of one sample; 0: off
   float ao_distance = -1.0f;  ///< metres; negative: a tenth of the scene's diagonal; infinity allowed
   DenoiseOptions denoise;
@@ -105,6 +105,12 @@ struct RenderOptions {
   CacheOptions cache;  ///< of nao and nrc
   CheckpointOptions checkpoint;
   Ranks* ranks = nullptr;  ///< processes that make the pictures together; null: this one alone
+};
+
+/// Values of automatic options that a renderer chose for its scene.
+struct ChosenOptions {
+  Integrator integrator = Integrator::path;
+  Watertight watertight = Watertight::on;
 };
 
 /// Adds the name and value of each plain member that affects bits to a fingerprint, which has `add`

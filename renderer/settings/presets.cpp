@@ -12,6 +12,7 @@ void set_finished(RenderOptions& options, int spp) {
   options.spp_of_paths = spp + spp / 2;
   options.denoise.denoiser = DenoiserKind::automatic;
   options.glass_shadows = GlassShadows::straight;
+  options.watertight = Watertight::automatic;
   // Chosen by the error after denoising (renderer/cache/README.md). Twice the steps of half the records, and
   // a learning rate that falls soon, keep the overall brightness stable.
   CacheOptions& cache = options.cache;

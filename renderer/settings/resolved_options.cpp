@@ -47,6 +47,11 @@ float resolve_filter_width(PixelFilter filter, float option) {
   return filter == PixelFilter::tent ? 2.0f : 3.0f;
 }
 
+void use_chosen(RenderOptions& options, const ChosenOptions& chosen) {
+  if (options.choose_integrator) use_integrator(options, chosen.integrator);
+  if (options.watertight == Watertight::automatic) options.watertight = chosen.watertight;
+}
+
 void use_integrator(RenderOptions& options, Integrator integrator) {
   options.choose_integrator = false;
   options.integrator = integrator;

@@ -25,6 +25,9 @@ int choose_training_steps(const RenderOptions& options, std::uint64_t pixels);
 /// option is 0.
 float resolve_filter_width(PixelFilter filter, float option);
 
+/// Puts what was chosen in place of RenderOptions::choose_integrator and Watertight::automatic.
+void use_chosen(RenderOptions& options, const ChosenOptions& chosen);
+
 /// Sets the integrator that RenderOptions::choose_integrator led to. With path, spp_of_paths replaces spp.
 void use_integrator(RenderOptions& options, Integrator integrator);
 

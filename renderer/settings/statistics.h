@@ -113,6 +113,9 @@ struct RenderStatistics {
   std::string isa;                         ///< that Embree chose
   std::vector<std::string> warnings;       ///< about input that could not be used as given
   std::optional<double> bounces_of_paths;  ///< by which the integrator was chosen, if it was
+  /// By which Watertight::automatic was chosen, if it was: the light if nothing cast a shadow, over the
+  /// picture's.
+  std::optional<double> light_behind_walls;
   RayCounts rays;
   std::size_t geometry_bytes = 0;
   std::size_t bvh_bytes = 0;
