@@ -47,6 +47,12 @@ RenderSettings settle(FlagValues& flags, bool named = false) {
       continue;
     }
     const bool has_cache = renderer::uses_cache(o.integrator);
+    // The pictures of a series have the first samples of one render.
+    if (o.sampler == renderer::SamplerKind::screen && !has_cache && !named) {
+      set_flag(flags, "--sampler", "sobol");
+      dropped = true;
+      continue;
+    }
     for (const std::string& name : options_without_effect(settings)) dropped |= drop_flag(flags, "--" + name);
     if (!has_cache && !named) dropped |= drop_flag(flags, "--spp");
   }

@@ -36,6 +36,9 @@ void check_series(const Series& series, const RenderOptions& options) {
   caches ? check_points("train-steps", series.train_steps, 0) : check_points("spp", series.spp, 1);
   refuse(options.time_limit_seconds > 0.0, "time-limit");
   refuse(options.max_error > 0.0, "max-error");
+  if (!caches && series.spp.size() > 1 && options.sampler == SamplerKind::screen)
+    throw BadOption(
+        {"sampler", "screen", "its samples depend on `spp`", "sobol or independent for a series of spp"});
   refuse(caches && options.cache.train_seconds > 0.0, "train-time");
   refuse(!options.checkpoint.file.empty(), "checkpoint");
   refuse(caches && !options.cache.cache_out.empty(), "cache-out");

@@ -8,6 +8,17 @@ namespace {
 
 constexpr std::size_t kNonFiniteKept = 16;
 
+/// One sequence on the screen needs to know how many samples it has.
+Sampler sampler_of(const PixelSample& sample, const RenderOptions& options) {
+  const auto& [pixel, number] = sample;
+  const bool spp_ends_it = options.spp > 0 && options.spp < kUnlimitedSpp &&
+                           !(options.time_limit_seconds > 0.0) && !(options.max_error > 0.0);
+  if (options.sampler == SamplerKind::screen && spp_ends_it)
+    return Sampler::of_screen(options.seed, morton(pixel), static_cast<std::uint32_t>(options.spp), number);
+  return {options.sampler, options.seed, static_cast<std::uint32_t>(pixel.x),
+          static_cast<std::uint32_t>(pixel.y), number};
+}
+
 }  // namespace
 
 CameraSample make_camera_sample(const PixelSample& sample, const RenderOptions& options, const Camera& camera,
@@ -17,7 +28,7 @@ CameraSample make_camera_sample(const PixelSample& sample, const RenderOptions& 
   const auto y = static_cast<std::uint32_t>(pixel.y);
   CameraSample s;
   s.around = camera.around();
-  s.sampler = Sampler(options.sampler, options.seed, x, y, number);
+  s.sampler = sampler_of(sample, options);
   s.seed = hash(hash(hash(hash(options.seed) + x) + y) + number);
   const Vec2 offset = filter.sample(s.sampler.get_2d(dimension::kFilm));
   s.camera_ray = camera_ray(camera, static_cast<float>(pixel.x) + 0.5f + offset.x(),

@@ -65,10 +65,23 @@ inline float to_unit_float(std::uint32_t x) {
 class Sampler {
  public:
   Sampler() = default;
-  Sampler(SamplerKind kind, std::uint32_t seed, std::uint32_t x, std::uint32_t y, std::uint32_t sample)
-      : index_(kind == SamplerKind::sobol ? sampling::reverse_bits(sample) : sample), kind_(kind) {
+  /// Each pixel has its own sequence, also with SamplerKind::screen.
+  Sampler(SamplerKind kind, std::uint32_t seed, std::uint32_t x, std::uint32_t y, std::uint32_t sample) {
+    const bool independent = kind == SamplerKind::independent;
+    kind_ = independent ? SamplerKind::independent : SamplerKind::sobol;
+    index_ = independent ? sample : sampling::reverse_bits(sample);
     const std::uint64_t pixel = sampling::mix_bits((std::uint64_t{y} << 32) | x);
     key_ = static_cast<std::uint32_t>(sampling::mix_bits(pixel + seed) >> 32);
+  }
+
+  /// The sample of one sequence that has `spp` samples for each pixel, in the order of their Morton numbers
+  /// `pixel` (Ahmed and Wonka 2020, "Screen-space blue-noise diffusion of Monte Carlo sampling error via
+  /// hierarchical ordering of pixels"). Later samples have another sequence.
+  static Sampler of_screen(std::uint32_t seed, std::uint32_t pixel, std::uint32_t spp, std::uint32_t sample) {
+    const std::uint64_t sequence = sampling::mix_bits(~std::uint64_t{sample / spp});
+    return from_parts(SamplerKind::sobol,
+                      static_cast<std::uint32_t>(sampling::mix_bits(sequence + seed) >> 32),
+                      sampling::reverse_bits(pixel * spp + sample % spp));
   }
 
   /// The same sampler from its parts.
@@ -117,14 +130,15 @@ class Sampler {
   }
 
   std::uint32_t key_ = 0;
-  std::uint32_t index_ = 0;  ///< number of the sample; for Sobol points with reversed bits
-  SamplerKind kind_ = SamplerKind::sobol;
+  std::uint32_t index_ = 0;                ///< number of the sample; for Sobol points with reversed bits
+  SamplerKind kind_ = SamplerKind::sobol;  ///< sobol or independent
 };
 
 /// The seed of a camera ray, for alpha_number(): over the samples of a pixel the numbers of each surface are
 /// as even as Sobol points.
 inline std::uint32_t alpha_seed(const Sampler& sampler) {
-  return (sampler.key() & 0xffff0000u) | sampler.index() >> 16;
+  const std::uint32_t sequence = sampler.key() + (sampler.index() & 0xffffu) * 0x9e3779b9u;
+  return (sequence & 0xffff0000u) | sampler.index() >> 16;
 }
 
 /// Uniform in [0, 1), for the decision whether a ray with this seed meets a blended surface or passes it.

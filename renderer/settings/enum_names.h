@@ -82,6 +82,7 @@ inline constexpr Choice<MatteKind> kEnumNames<MatteKind>[] = {{"object", MatteKi
                                                               {"material", MatteKind::material}};
 template <>
 inline constexpr Choice<SamplerKind> kEnumNames<SamplerKind>[] = {{"sobol", SamplerKind::sobol},
+                                                                  {"screen", SamplerKind::screen},
                                                                   {"independent", SamplerKind::independent}};
 template <>
 inline constexpr Choice<LightSelection> kEnumNames<LightSelection>[] = {{"tree", LightSelection::tree},

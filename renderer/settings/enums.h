@@ -56,6 +56,7 @@ enum class MatteKind : std::uint8_t { object, material };
 
 enum class SamplerKind : std::uint8_t {
   sobol,  ///< Owen-scrambled Sobol points, padded: every pair of dimensions is a separate (0,2)-sequence
+  screen,       ///< one such sequence for the samples of all pixels, where spp ends the picture
   independent,  ///< independent numbers, hashed from the key
 };
 

@@ -13,6 +13,7 @@ void set_finished(RenderOptions& options, int spp) {
   options.denoise.denoiser = DenoiserKind::automatic;
   options.glass_shadows = GlassShadows::straight;
   options.watertight = Watertight::automatic;
+  options.sampler = SamplerKind::screen;
   // Chosen by the error after denoising (renderer/cache/README.md). Twice the steps of half the records, and
   // a learning rate that falls soon, keep the overall brightness stable.
   CacheOptions& cache = options.cache;

@@ -180,6 +180,20 @@ TEST_F(DenoisedPictures, RemoveMostOfTheNoiseAndKeepEdges) {
       EXPECT_EQ(denoised.albedo == noisy.albedo, prefilter != Prefilter::accurate);
     }
   }
+  // Where guides are said to have no noise they stay.
+  NoisyImage part = noisy;
+  part.noisy_guides = PixelRect{32, 0, 96, 40};
+  const NoisyImage denoised = filtered(part);
+  EXPECT_LT(deviation(denoised.color, clean.color), 0.15 * before);
+  for (int y = 0; y < 64; ++y) {
+    for (int x = 0; x < 96; ++x) {
+      const auto i = 3 * static_cast<std::size_t>(y * 96 + x);
+      if (x < 32 || y >= 40) ASSERT_EQ(denoised.normal[i], noisy.normal[i]) << x << " " << y;
+    }
+  }
+  EXPECT_LT(deviation(denoised.albedo, clean.albedo), deviation(noisy.albedo, clean.albedo));
+  part.noisy_guides = PixelRect{};
+  EXPECT_EQ(filtered(part).albedo, noisy.albedo);
   NoisyImage alone = noisy;
   alone.albedo.clear();
   alone.normal.clear();

@@ -46,7 +46,8 @@ TEST(DenoisingLayers, ComeBackToTheBitAtAnySize) {
                                rows_of(image.color, image.width, 3),
                                rows_of(image.albedo, image.width, 3),
                                rows_of(image.normal, image.width, 3),
-                               rows_of(alpha, image.width, 1)};
+                               rows_of(alpha, image.width, 1),
+                               PixelRect{1, 2, 3, 4}};
     add_denoising_layers(picture, samples, factor);
     ASSERT_EQ(picture.layers.size(), 1u + 4u * static_cast<unsigned>(factor * factor));
     for (std::size_t i = 1; i < picture.layers.size(); ++i) {
@@ -62,6 +63,11 @@ TEST(DenoisingLayers, ComeBackToTheBitAtAnySize) {
     EXPECT_EQ(read.albedo, image.albedo);
     EXPECT_EQ(read.normal, image.normal);
     EXPECT_EQ(read.alpha, alpha);
+    EXPECT_EQ(read.noisy().noisy_guides, (PixelRect{1, 2, 3, 4}));
+    for (const char* text : {"1,2,3,4/9x9", "1,2,3,400", "", "-1,0,2,2/6x4", "3,2,1,4/6x4"}) {
+      picture.metadata["noisy-guides"] = text;
+      EXPECT_FALSE(samples_of(picture, own_layers(picture)).noisy_guides) << text;
+    }
     EXPECT_EQ(read.noisy().color(1, 3), rows_of(image.color, image.width, 3)(1, 3));
   }
 }

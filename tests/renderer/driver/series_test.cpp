@@ -217,6 +217,9 @@ TEST(RenderSeries, InvalidSeriesAreRefused) {
   testing::denoise(large);
   large.denoise.supersampling = 2;
   expect_parts(refusal(s, large, {.spp = {4, 6}}), {"spp", "6", "", "multiple of 4"});
+  RenderOptions screen = path;
+  screen.sampler = SamplerKind::screen;
+  expect_parts(refusal(s, screen, {.spp = {1, 4}}), {"sampler", "screen", "", "sobol"});
   const auto with = [&](const std::function<void(RenderOptions&)>& change) {
     RenderOptions changed = nrc;
     change(changed);

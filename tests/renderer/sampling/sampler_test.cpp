@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <vector>
 
@@ -40,6 +41,39 @@ TEST(SamplerTest, SobolPairsFillEveryElementaryInterval) {
       }
     }
   }
+}
+
+TEST(SamplerTest, PairsOfAScreenFillEveryElementaryInterval) {
+  // All samples of an aligned square of pixels, near the origin and far from it.
+  for (const std::uint32_t spp : {1u, 4u, 8u}) {
+    for (const std::uint32_t first : {0u, 64u, 64u * 1000u}) {
+      constexpr std::uint32_t kPixels = 64;
+      const std::uint32_t count = kPixels * spp;
+      const int k = std::countr_zero(count);
+      std::vector<Vec2> points;
+      for (std::uint32_t i = 0; i < count; ++i)
+        points.push_back(Sampler::of_screen(3, first + i / spp, spp, i % spp).get_2d(17));
+      for (int columns_log2 = 0; columns_log2 <= k; ++columns_log2) {
+        const std::uint32_t columns = 1u << columns_log2, rows = count / columns;
+        std::vector<bool> taken(count, false);
+        for (const Vec2& p : points) {
+          const auto column = static_cast<std::uint32_t>(p.x() * static_cast<float>(columns));
+          const auto row = static_cast<std::uint32_t>(p.y() * static_cast<float>(rows));
+          ASSERT_FALSE(taken[row * columns + column]) << "spp " << spp << " columns " << columns;
+          taken[row * columns + column] = true;
+        }
+      }
+    }
+  }
+}
+
+TEST(SamplerTest, LaterSamplesOfAScreenAndSeedsAreOtherSequences) {
+  const auto key = [](std::uint32_t seed, std::uint32_t sample) {
+    return Sampler::of_screen(seed, 5, 8, sample).key();
+  };
+  EXPECT_EQ(key(1, 0), key(1, 7));
+  EXPECT_NE(key(1, 7), key(1, 8));
+  EXPECT_NE(key(1, 0), key(2, 0));
 }
 
 TEST(SamplerTest, SobolNumbersAreStratifiedInOneDimension) {
