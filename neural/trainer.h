@@ -15,7 +15,7 @@ class Trainer {
           std::unique_ptr<Backend> backend);
 
   StepStatistics train(const TrainingBatch& batch) { return backend_->train(batch); }
-  void start(const TrainingBatch& batch, Team* team = nullptr) { backend_->start(batch, team); }
+  void start(std::span<const TrainingBatch> batches, Team* team = nullptr) { backend_->start(batches, team); }
   StepStatistics finish() { return backend_->finish(); }
   void query(const QueryBatch& batch, const QueryOptions& options, std::span<float> out) const {
     backend_->query(batch, options, out);

@@ -4,8 +4,9 @@
 
 namespace gatelight::neural {
 
-void Backend::start(const TrainingBatch& batch, Team* team) {
-  made_.push_back(team != nullptr ? train(batch, *team) : train(batch));
+void Backend::start(std::span<const TrainingBatch> batches, Team* team) {
+  for (const TrainingBatch& batch : batches)
+    made_.push_back(team != nullptr ? train(batch, *team) : train(batch));
 }
 
 StepStatistics Backend::finish() {

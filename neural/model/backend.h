@@ -55,13 +55,15 @@ class Backend {
   virtual StepStatistics train(const TrainingBatch& batch) = 0;
   /// The same, called by the leader of a team whose threads share the work.
   virtual StepStatistics train(const TrainingBatch& batch, Team&) { return train(batch); }
-  /// Starts a step. The caller may change the batch as soon as this returns. Later queries, exports and steps
-  /// see its result.
-  virtual void start(const TrainingBatch& batch, Team* team = nullptr);
+  /// Starts a step over each batch, in their order. The caller may change the batches as soon as this
+  /// returns. Later queries, exports and steps see the result. A device gets as many steps at once as it has
+  /// room for.
+  virtual void start(std::span<const TrainingBatch> batches, Team* team = nullptr);
+  void start(const TrainingBatch& batch, Team* team = nullptr) { start({&batch, 1}, team); }
   /// Waits for the oldest unfinished step and returns its statistics. Throws BadConfiguration if there is
   /// none.
   virtual StepStatistics finish();
-  /// Whether start returns before the step is complete.
+  /// Whether start returns before the steps are complete.
   virtual bool runs_alongside() const { return false; }
   /// Whether several threads may query at a time, while no other function runs.
   virtual bool answers_threads() const { return false; }

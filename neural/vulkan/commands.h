@@ -14,6 +14,8 @@ class Commands {
   /// Begins recording. The commands run after everything submitted before.
   Commands(const vk::raii::CommandBuffer& buffer, Machine& machine, Address model, Address batch);
 
+  /// Later dispatches read another batch of the model.
+  void read_batch(Address batch) { push_.batch = batch; }
   /// Dispatches at least `groups` workgroups; the shader must return from surplus ones.
   void dispatch(Shader shader, std::span<const std::uint32_t> constants, std::uint64_t groups,
                 std::uint32_t argument = 0, std::uint32_t other = 0);

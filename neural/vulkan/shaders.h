@@ -7,9 +7,9 @@
 namespace gatelight::neural::vulkan {
 
 enum class Shader : std::uint8_t {
+  count_step,
   count_triangles,
   encode,
-  finish_step,
   forward,
   mark_count,
   mark_write,

@@ -13,7 +13,9 @@ namespace {
 using Constants = std::vector<std::uint32_t>;
 
 constexpr std::uint32_t kParametersAGroup = 8;  // of update_network
-constexpr std::uint64_t kMaxLoopingGroups = 65536;
+/// Of shaders whose threads take any number of items: more than an H100 runs at a time (2112). Further ones
+/// would mostly find none, as their number is an upper limit.
+constexpr std::uint64_t kMaxLoopingGroups = 4096;
 
 bool is_dense(const StepPlan& plan) {
   return plan.options.update == FeatureUpdate::dense;
@@ -35,8 +37,6 @@ void record_network(const StepPlan& plan, Commands& commands) {
     const std::uint64_t bias = model.parameters.layers.back().biases - model.parameters.network;
     commands.dispatch(Shader::start_mean, {}, 1, static_cast<std::uint32_t>(bias));
     commands.barrier();
-    record_training_pack(model, commands);
-    commands.barrier();
   }
   if (plan.features.counts_triangles())
     commands.dispatch(Shader::count_triangles, {}, groups_for(plan.cut.size));
@@ -45,6 +45,8 @@ void record_network(const StepPlan& plan, Commands& commands) {
                                      plan.options.loss == Loss::relative_l2 ? 1u : 0u});
   commands.dispatch(Shader::train_network, constants, plan.cut.groups);
   commands.barrier();
+  commands.dispatch(Shader::count_step, {}, 1);  // beside the first part of the sort
+  if (plan.cut.references == 0) commands.barrier();
 }
 
 void record_gradients(const StepPlan& plan, Commands& commands) {
@@ -72,9 +74,6 @@ void record_updates(const StepPlan& plan, Commands& commands) {
         std::min(groups_for(nodes), kMaxLoopingGroups));
   }
   commands.barrier();
-  record_training_pack(model, commands);
-  commands.dispatch(Shader::finish_step, {}, 1);
-  commands.barrier();
 }
 
 }  // namespace
@@ -84,20 +83,14 @@ void record_training_pack(const Model& model, Commands& commands) {
                     glsl::kPackBackward);
 }
 
-void record_step(const StepPlan& plan, const Submission& step, std::uint64_t upload_bytes,
+void record_step(const StepPlan& plan, const vk::raii::QueryPool& stamps, std::uint32_t start,
                  Commands& commands) {
-  commands.reset(step.stamps, kStamps);
-  commands.copy(step.staging, step.batch, upload_bytes);
-  commands.fill(step.result, 0);
-  commands.barrier();
-  commands.stamp(step.stamps, 0);
   record_network(plan, commands);
-  commands.stamp(step.stamps, 1);
+  commands.stamp(stamps, start + 1);
   if (plan.cut.references > 0) record_gradients(plan, commands);
-  commands.stamp(step.stamps, 2);
+  commands.stamp(stamps, start + 2);
   record_updates(plan, commands);
-  commands.stamp(step.stamps, 3);
-  commands.copy(step.result, step.readback, step.readback.bytes());
+  commands.stamp(stamps, start + 3);
 }
 
 }  // namespace gatelight::neural::vulkan

@@ -5,7 +5,6 @@
 #include "neural/vulkan/commands.h"
 #include "neural/vulkan/feature_store.h"
 #include "neural/vulkan/step_scratch.h"
-#include "neural/vulkan/submission.h"
 
 namespace gatelight::neural::vulkan {
 
@@ -18,11 +17,14 @@ struct StepPlan {
   bool may_be_first = false;  ///< this may be the first step, which sets the output bias
 };
 
-/// Records a step, from the copy of the batch to the copy of the statistics.
-void record_step(const StepPlan& plan, const Submission& step, std::uint64_t upload_bytes,
+/// Stamps that a step writes: after the network, after the sort, at its end.
+inline constexpr std::uint32_t kStepStamps = 3;
+
+/// Records a step over a batch that is on the device. Stamp number `start` is the one before it.
+void record_step(const StepPlan& plan, const vk::raii::QueryPool& stamps, std::uint32_t start,
                  Commands& commands);
 
-/// Records the packing of the parameters into the weights that training reads.
+/// Records the packing of imported parameters into the weights that training reads.
 void record_training_pack(const Model& model, Commands& commands);
 
 }  // namespace gatelight::neural::vulkan

@@ -4,39 +4,46 @@
 
 namespace gatelight::neural::vulkan {
 
-Submission::Submission(const Device& device)
+namespace {
+
+using Access = vk::AccessFlagBits;
+constexpr vk::AccessFlags kWritten = Access::eShaderWrite | Access::eTransferWrite;
+constexpr vk::PipelineStageFlags kWork =
+    vk::PipelineStageFlagBits::eComputeShader | vk::PipelineStageFlagBits::eTransfer;
+
+}  // namespace
+
+Submission::Submission(const Device& device, std::uint32_t stamp_count)
     : pool(device.handle(), vk::CommandPoolCreateInfo(vk::CommandPoolCreateFlagBits::eTransient |
                                                           vk::CommandPoolCreateFlagBits::eResetCommandBuffer,
                                                       device.queue_family())),
       commands(device.handle(), vk::CommandBufferAllocateInfo(*pool, vk::CommandBufferLevel::ePrimary, 1)),
       fence(device.handle(), vk::FenceCreateInfo()) {
-  if (device.limits().nanoseconds_per_tick > 0.0)
-    stamps =
-        vk::raii::QueryPool(device.handle(), vk::QueryPoolCreateInfo({}, vk::QueryType::eTimestamp, kStamps));
+  if (stamp_count > 0 && device.limits().nanoseconds_per_tick > 0.0)
+    stamps = vk::raii::QueryPool(device.handle(),
+                                 vk::QueryPoolCreateInfo({}, vk::QueryType::eTimestamp, stamp_count));
 }
 
-double seconds_between(const Device& device, const Submission& submission, std::uint32_t from,
-                       std::uint32_t to) {
-  if (!*submission.stamps) return 0.0;
-  const auto ticks = [&](std::uint32_t stamp) {
-    return submission.stamps
-        .getResult<std::uint64_t>(stamp, 1, sizeof(std::uint64_t),
-                                  vk::QueryResultFlagBits::e64 | vk::QueryResultFlagBits::eWait)
-        .second;
-  };
+std::vector<double> stamped_seconds(const Device& device, const Submission& submission, std::size_t count) {
+  std::vector<double> seconds(count, 0.0);
+  if (!*submission.stamps) return seconds;
+  const std::vector<std::uint64_t> ticks =
+      submission.stamps
+          .getResults<std::uint64_t>(0, static_cast<std::uint32_t>(count), count * sizeof(std::uint64_t),
+                                     sizeof(std::uint64_t),
+                                     vk::QueryResultFlagBits::e64 | vk::QueryResultFlagBits::eWait)
+          .second;
   // Counters with fewer bits wrap.
-  const std::uint64_t passed = (ticks(to) - ticks(from)) & device.limits().tick_mask;
-  return static_cast<double>(passed) * device.limits().nanoseconds_per_tick * 1e-9;
+  for (std::size_t i = 0; i < count; ++i)
+    seconds[i] = static_cast<double>((ticks[i] - ticks[0]) & device.limits().tick_mask) *
+                 device.limits().nanoseconds_per_tick * 1e-9;
+  return seconds;
 }
 
 void full_barrier(const vk::raii::CommandBuffer& commands) {
-  using Access = vk::AccessFlagBits;
-  using Stage = vk::PipelineStageFlagBits;
-  const vk::MemoryBarrier barrier(Access::eShaderWrite | Access::eTransferWrite,
-                                  Access::eShaderRead | Access::eShaderWrite | Access::eTransferRead |
-                                      Access::eTransferWrite | Access::eHostRead);
-  commands.pipelineBarrier(Stage::eComputeShader | Stage::eTransfer,
-                           Stage::eComputeShader | Stage::eTransfer | Stage::eHost, {}, barrier, {}, {});
+  const vk::MemoryBarrier barrier(
+      kWritten, Access::eShaderRead | Access::eShaderWrite | Access::eTransferRead | Access::eTransferWrite);
+  commands.pipelineBarrier(kWork, kWork, {}, barrier, {}, {});
 }
 
 void begin_commands(const vk::raii::CommandBuffer& commands) {
@@ -46,7 +53,8 @@ void begin_commands(const vk::raii::CommandBuffer& commands) {
 
 void submit_commands(const Device& device, const vk::raii::CommandBuffer& commands,
                      const vk::raii::Fence& fence) {
-  full_barrier(commands);
+  const vk::MemoryBarrier for_host(kWritten, Access::eHostRead);
+  commands.pipelineBarrier(kWork, vk::PipelineStageFlagBits::eHost, {}, for_host, {}, {});
   commands.end();
   const vk::CommandBuffer handle = *commands;
   device.queue().submit(vk::SubmitInfo({}, {}, handle), *fence);

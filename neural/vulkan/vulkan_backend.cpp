@@ -7,7 +7,6 @@
 #include <bit>
 #include <chrono>
 #include <cstring>
-#include <deque>
 #include <optional>
 
 #include "base/errors.h"
@@ -18,13 +17,12 @@
 #include "neural/vulkan/network_store.h"
 #include "neural/vulkan/point_upload.h"
 #include "neural/vulkan/step_commands.h"
+#include "neural/vulkan/step_queue.h"
 
 namespace gatelight::neural::vulkan {
 
 namespace {
 
-/// Maximum steps in progress: one computes, one waits, one is being filled.
-constexpr std::size_t kSteps = 3;
 /// Chunks of a query in progress, and points of a chunk.
 constexpr std::size_t kChunks = 2;
 constexpr std::size_t kChunkPoints = std::size_t{1} << 18;
@@ -42,7 +40,7 @@ class VulkanBackend final : public Backend {
   ~VulkanBackend() override;
 
   StepStatistics train(const TrainingBatch& batch) override;
-  void start(const TrainingBatch& batch, Team*) override;
+  void start(std::span<const TrainingBatch> batches, Team*) override;
   StepStatistics finish() override;
   bool runs_alongside() const override { return true; }
   void query(const QueryBatch& batch, const QueryOptions& options, std::span<float> out) const override;
@@ -62,9 +60,6 @@ class VulkanBackend final : public Backend {
     return translated(machine_->device().name(), operation, std::forward<F>(body));
   }
   void describe_model();
-  void submit_step(Submission& step, const TrainingBatch& batch);
-  StepStatistics collect(Submission& step);
-  void collect_oldest();
   void submit_query(Submission& chunk, const QueryBatch& batch, const QueryOptions& options,
                     std::size_t begin) const;
   void read_results(Submission& chunk, std::size_t begin, std::span<float> out) const;
@@ -79,12 +74,8 @@ class VulkanBackend final : public Backend {
   FeatureStore features_;
   NetworkStore network_;
   Buffer model_block_, pack_block_;
-  std::uint32_t tile_, query_tile_;
-  StepScratch scratch_;
-  std::vector<Submission> steps_;
-  std::uint64_t started_ = 0, collected_ = 0;
-  std::deque<StepStatistics> finished_;
-  bool may_be_first_ = true;
+  std::uint32_t query_tile_;
+  StepQueue steps_;
 
   mutable std::vector<Submission> chunks_;
   mutable Buffer query_inputs_, query_status_;
@@ -100,15 +91,9 @@ VulkanBackend::VulkanBackend(std::shared_ptr<Machine> machine, std::shared_ptr<c
       tables_(machine_->device(), transfer_, *model_, options_, machine_->longest_part()),
       features_(machine_->device(), transfer_, *model_, options_, machine_->longest_part()),
       network_(machine_->device(), transfer_, *model_, options_),
-      tile_(training_tile(*model_, machine_->device().limits().shared_bytes)),
-      query_tile_(query_tile(*model_, machine_->device().limits().shared_bytes)) {
-  const Device& device = machine_->device();
-  for (std::size_t i = 0; i < kSteps; ++i) {
-    Submission& step = steps_.emplace_back(device);
-    step.result = Buffer(device, 4 * glsl::kStatisticsWords, BufferUse::device);
-    step.readback = Buffer(device, 4 * glsl::kStatisticsWords, BufferUse::readback);
-  }
-  for (std::size_t i = 0; i < kChunks; ++i) chunks_.emplace_back(device);
+      query_tile_(query_tile(*model_, machine_->device().limits().shared_bytes)),
+      steps_(*machine_, *model_, options_, features_, network_) {
+  for (std::size_t i = 0; i < kChunks; ++i) chunks_.emplace_back(machine_->device());
   describe_model();
   import_state(initial_state(*model_, options_));
 }
@@ -135,90 +120,25 @@ void VulkanBackend::describe_model() {
 }
 
 StepStatistics VulkanBackend::train(const TrainingBatch& batch) {
-  start(batch, nullptr);
+  start({&batch, 1}, nullptr);
   return finish();
 }
 
-void VulkanBackend::start(const TrainingBatch& batch, Team*) {
-  check_batch(*model_, batch);
+void VulkanBackend::start(std::span<const TrainingBatch> batches, Team*) {
   const std::uint64_t most = most_records(*model_, machine_->device().limits().longest_buffer);
-  if (batch.points.size > most)
-    throw BadConfiguration(
-        {"batch", fmt::format("{}", batch.points.size), "", fmt::format("at most {}", most)});
-  translate_errors("training", [&] {
-    Submission& step = steps_[started_ % kSteps];
-    if (started_ - collected_ == kSteps) collect_oldest();
-    if (batch.points.size > 0) submit_step(step, batch);
-    ++started_;
-  });
+  for (const TrainingBatch& batch : batches) {
+    check_batch(*model_, batch);
+    if (batch.points.size > most)
+      throw BadConfiguration(
+          {"batch", fmt::format("{}", batch.points.size), "", fmt::format("at most {}", most)});
+  }
+  packed_.reset();
+  translate_errors("training", [&] { steps_.start(batches, model_block_.address()); });
 }
 
 StepStatistics VulkanBackend::finish() {
-  if (finished_.empty() && started_ > collected_) translate_errors("training", [&] { collect_oldest(); });
-  if (finished_.empty()) throw BadConfiguration("finish: no step was started");
-  const StepStatistics statistics = finished_.front();
-  finished_.pop_front();
-  return statistics;
-}
-
-void VulkanBackend::submit_step(Submission& step, const TrainingBatch& batch) {
-  const Device& device = machine_->device();
-  const std::uint64_t records = batch.points.size;
-  if (records > scratch_.capacity()) {
-    while (started_ > collected_) collect_oldest();  // these steps use the arrays that are about to grow
-    scratch_.reserve(device, *model_, records, tile_);
-  }
-  const std::uint64_t bytes = upload_bytes(*model_, records, true);
-  reserve(device, step.staging, bytes, BufferUse::upload);
-  reserve(device, step.batch, bytes, BufferUse::device);
-  const StepPlan plan{*model_, options_, features_, cut_step(*model_, records, tile_), tile_, may_be_first_};
-  BatchBlock block = scratch_.block();
-  block.read = features_.readable(false);
-  block.statistics = step.result.address();
-  block.forward = network_.forward();
-  block.size = plan.cut.size;
-  block.references = plan.cut.references;
-  block.tiles = plan.cut.tiles;
-  block.groups = plan.cut.groups;
-  block.blocks = plan.cut.blocks;
-  write_upload(*model_, batch.points, batch.targets, 0, step.batch.address(), block, step.staging.mapped());
-  Commands commands(step.commands.front(), *machine_, model_block_.address(), step.batch.address());
-  record_step(plan, step, bytes, commands);
-  commands.submit(step.fence);
-  step.under_way = true;
-  packed_.reset();
-}
-
-void VulkanBackend::collect_oldest() {
-  finished_.push_back(collect(steps_[collected_ % kSteps]));
-  ++collected_;
-}
-
-StepStatistics VulkanBackend::collect(Submission& step) {
-  if (!step.under_way) return {};
-  step.under_way = false;
-  wait_for(machine_->device(), step.fence);
-  machine_->check();
-  std::array<std::uint32_t, glsl::kStatisticsWords> words;
-  std::memcpy(words.data(), step.readback.mapped(), sizeof(words));
-  StepStatistics statistics;
-  statistics.records = words[glsl::kAccepted];
-  statistics.rejected = words[glsl::kRejected];
-  statistics.unstored = words[glsl::kUnstored];
-  statistics.clipped = words[glsl::kClipped];
-  statistics.skipped_updates = words[glsl::kSkipped];
-  statistics.touched_nodes = words[glsl::kTouched];
-  if (statistics.records > 0) {
-    may_be_first_ = false;
-    statistics.loss = static_cast<double>(std::bit_cast<float>(words[glsl::kLoss])) /
-                      (static_cast<double>(statistics.records) * model_->config.mlp.outputs);
-  }
-  const Device& device = machine_->device();
-  statistics.seconds_network = seconds_between(device, step, 0, 1);
-  statistics.seconds_sort = seconds_between(device, step, 1, 2);
-  statistics.seconds_update = seconds_between(device, step, 2, 3);
-  statistics.seconds = seconds_between(device, step, 0, 3);
-  return statistics;
+  if (!steps_.any()) throw BadConfiguration("finish: no step was started");
+  return translate_errors("training", [&] { return steps_.finish(); });
 }
 
 void VulkanBackend::query(const QueryBatch& batch, const QueryOptions& options, std::span<float> out) const {
@@ -337,7 +257,7 @@ void VulkanBackend::import_state(const ModelState& state) {
     machine_->check();
   });
   packed_.reset();
-  may_be_first_ = state.steps == 0;
+  steps_.set_first(state.steps == 0);
 }
 
 // Checked before any allocation, because some drivers promise more memory than they have.

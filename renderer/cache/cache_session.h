@@ -123,7 +123,8 @@ class CacheSession {
   void finish(Group& group);
   /// Takes the records that are traced elsewhere.
   void receive(Group& group, const Watch& watch);
-  void learn(const RecordBatch& group, std::uint64_t batch, Team& team);
+  /// Makes the steps of a group: one by one, or all at once where a device computes them meanwhile.
+  void learn(const RecordBatch& group, Team& team);
   /// Compares records that are not learned yet with the answers.
   void look_at_light(const RecordBatch& group);
   /// answer() in any precision. No light where the world has none, which a network only comes near to.

@@ -52,13 +52,22 @@ RecordRequest CacheSession::request(std::uint64_t step, std::uint64_t count,
   return request;
 }
 
-void CacheSession::learn(const RecordBatch& group, std::uint64_t batch, Team& team) {
-  const schedule::Section section("step");
-  trainer_->start(group.batch(batch), &team);
-  ++steps_;
-  ++steps_under_way_;
-  statistics_.steps += 1;
-  if (!trainer_->backend().runs_alongside()) synchronize();
+void CacheSession::learn(const RecordBatch& group, Team& team) {
+  const bool alongside = trainer_->backend().runs_alongside();
+  const std::uint64_t steps = group.batch_split.batches(), together = alongside ? steps : 1;
+  std::vector<neural::TrainingBatch> batches(together);
+  for (std::uint64_t first = 0; first < steps; first += together) {
+    const schedule::Section section("step");
+    for (std::uint64_t i = 0; i < together; ++i) {
+      counts_.add(group, first + i, steps_ + i);
+      batches[i] = group.batch(first + i);
+    }
+    trainer_->start(batches, &team);
+    steps_ += together;
+    steps_under_way_ += together;
+    statistics_.steps += static_cast<int>(together);
+    if (!alongside) synchronize();
+  }
 }
 
 void CacheSession::synchronize() {
@@ -143,10 +152,7 @@ void CacheSession::trace_and_learn(Group* next, Group* learning, const Watch& wa
       [&] {
         if (!learning) return;
         if (!alone) receive(*learning, watch);
-        for (std::uint64_t batch = 0; batch < learning->steps(); ++batch) {
-          counts_.add(learning->records, batch, steps_);
-          learn(learning->records, batch, team);
-        }
+        learn(learning->records, team);
       });
   if (!next) return;
   RayCounts rays = records_->rays();

@@ -29,10 +29,9 @@ AdamStep adam_step(uint t) {
   return AdamStep(entry.x, entry.y, entry.z);
 }
 
-// The factors for the network's t in the current step.
+// The factors for the network's t, the number of steps with the current one.
 AdamStep adam_step_of_network() {
-  const uint low = model.progress.at[0] + 1u;
-  const uint high = model.progress.at[1] + (low == 0u ? 1u : 0u);
+  const uint low = model.progress.at[0], high = model.progress.at[1];
   if (high == 0u) return adam_step(low);
   return late_adam_step(float(high) * 4294967296.0 + float(low));
 }

@@ -1,9 +1,11 @@
 #version 460
 // Before the first step, sets the output biases to the mean target of the accepted records
-// (neural/learning/start_mean.h), so that the network starts with the right brightness. One workgroup.
+// (neural/learning/start_mean.h) and packs them, so that the network starts with the right brightness. One workgroup.
 // Push::argument is the index of the first output bias.
 
+#define GATELIGHT_SHAPE_OF_MODEL
 #include "blocks.glsl"
+#include "pack.glsl"
 #include "scan.glsl"
 
 shared float sums[kThreads];
@@ -66,8 +68,11 @@ void main() {
         sums[gl_LocalInvocationIndex] += sums[gl_LocalInvocationIndex + half_size];
       barrier();
     }
-    if (gl_LocalInvocationIndex == 0u)
-      model.parameters.at[argument + o] = sums[0] / float(batch.statistics.at[kAccepted]);
+    if (gl_LocalInvocationIndex == 0u) {
+      const float mean = sums[0] / float(batch.statistics.at[kAccepted]);
+      model.parameters.at[argument + o] = mean;
+      pack_forward(argument + o, mean);
+    }
     barrier();
   }
 }

@@ -1,11 +1,11 @@
 #version 460
-// Sums the weight gradients of all workgroups in one order, then applies Adam. A workgroup has 8 parameters
-// with sixteen threads each; a thread adds every sixteenth sum.
+// Sums the weight gradients of all workgroups in one order, then applies Adam and packs the result. A workgroup
+// has 8 parameters with sixteen threads each; a thread adds every sixteenth sum.
 
 #define GATELIGHT_SHAPE_OF_MODEL
 #include "blocks.glsl"
 #include "adam.glsl"
-#include "network.glsl"
+#include "pack.glsl"
 
 const uint kSlices = 16;
 const uint kColumns = kThreads / kSlices;
@@ -26,6 +26,8 @@ void update(uint p, float sum) {
   model.first_moments.at[p] = m;
   model.second_moments.at[p] = v;
   model.parameters.at[p] = after;
+  pack_forward(p, after);
+  pack_backward(p, after);
   if (model.adam.average_network != 0u) {
     const float average = model.network_average.at[p];
     model.network_average.at[p] = average + step.average_rate * (after - average);

@@ -1,5 +1,5 @@
 #version 460
-// Sums the losses of all tiles in one order and counts the step. One workgroup.
+// Sums the losses of all tiles in one order and counts the step, before its updates. One workgroup.
 
 #include "blocks.glsl"
 
