@@ -23,6 +23,7 @@ RenderSettings settings_of_frame(const RenderSettings& whole, int frame) {
   RenderSettings settings = whole;
   settings.load.time = whole.frames.seconds(frame);
   settings.render.checkpoint = {};
+  settings.render.cache.choose_device = false;  // runs of other frames have to agree
   settings.render.cache.cache_out.clear();
   settings.frames.range = FrameList{{{frame, frame}}};
   settings.render.camera = camera_of_frame(whole, frame);

@@ -111,17 +111,23 @@ ordered_json training_json(const CacheStatistics& s) {
 }
 
 ordered_json cache_json(const CacheStatistics& s) {
-  return {{"backend", s.backend},
-          {"nodes", s.nodes},
-          {"surfaces_stored", s.surfaces_stored},
-          {"surfaces_possible", s.surfaces_possible},
-          {"resolution_histogram", histogram_json(s)},
-          {"node_spacing", s.node_spacing},
-          {"target_scale", s.target_scale},
-          {"records_per_path", s.records_per_path},
-          {"queries", s.queries},
-          {"negative_answers", s.negative_answers},
-          {"unstored_hits", s.unstored_hits}};
+  ordered_json json = {{"backend", s.backend},
+                       {"nodes", s.nodes},
+                       {"surfaces_stored", s.surfaces_stored},
+                       {"surfaces_possible", s.surfaces_possible},
+                       {"resolution_histogram", histogram_json(s)},
+                       {"node_spacing", s.node_spacing},
+                       {"target_scale", s.target_scale},
+                       {"records_per_path", s.records_per_path},
+                       {"queries", s.queries},
+                       {"negative_answers", s.negative_answers},
+                       {"unstored_hits", s.unstored_hits}};
+  if (s.trial) {
+    json["trial"] = {{"device", s.trial->device},
+                     {"cpu_seconds", s.trial->cpu_seconds},
+                     {"device_seconds", s.trial->device_seconds}};
+  }
+  return json;
 }
 
 ordered_json cache_memory_json(const CacheStatistics& s) {
@@ -141,6 +147,11 @@ std::string cache_summary(const CacheStatistics& s, const std::string& cache_in)
   const bool loaded_only = !cache_in.empty() && s.steps == 0 && s.steps_wanted == 0;
   std::string text;
   if (!cache_in.empty()) text += fmt::format("loaded    the cache '{}'\n", cache_in);
+  if (s.trial) {
+    text +=
+        fmt::format("device    {}, chosen because a step takes {:.2f} ms on the CPU and {:.2f} ms on {}\n",
+                    s.device, 1e3 * s.trial->cpu_seconds, 1e3 * s.trial->device_seconds, s.trial->device);
+  }
   if (!loaded_only) text += fmt::format("training  {}\n", training_text(s));
   text += fmt::format(
       "          scout {:.2f}, setup {:.2f}, train {:.2f} (trace {:.2f}, query {:.2f}, step {:.2f}) "

@@ -9,6 +9,7 @@
 #include "apps/settings/option_table.h"
 #include "apps/terminal/text.h"
 #include "apps/terminal/version.h"
+#include "renderer/settings/resolved_options.h"
 
 namespace gatelight::apps {
 namespace {
@@ -50,10 +51,11 @@ std::string dump_options(const RenderSettings& settings) {
   return json_text(resolved_options(settings), -1);
 }
 
-std::map<std::string, std::string> make_recipe(const RenderSettings& settings,
+std::map<std::string, std::string> make_recipe(RenderSettings settings,
                                                const std::vector<std::string>& command,
                                                const renderer::RenderStatistics& statistics,
                                                double seconds_so_far) {
+  renderer::use_device(settings.render, statistics.cache);
   std::map<std::string, std::string> recipe = {
       {"version", version()},
       {"scene", settings.scene},

@@ -20,7 +20,7 @@ nlohmann::ordered_json resolved_options(RenderSettings settings);
 std::string dump_options(const RenderSettings& settings);
 
 /// The EXR header's strings.
-std::map<std::string, std::string> make_recipe(const RenderSettings& settings,
+std::map<std::string, std::string> make_recipe(RenderSettings settings,
                                                const std::vector<std::string>& command,
                                                const renderer::RenderStatistics& statistics,
                                                double seconds_so_far);

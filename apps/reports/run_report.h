@@ -27,7 +27,7 @@ struct RunReport {
 std::size_t peak_resident_bytes();
 
 /// The statistics file (schema 1), one JSON object with a line break at its end.
-std::string stats_json(const RenderSettings& settings, const RunReport& report);
+std::string stats_json(RenderSettings settings, const RunReport& report);
 
 /// A few lines, each with its line break.
 std::string summary(const RenderSettings& settings, const RunReport& report);

@@ -8,6 +8,7 @@
 #include "apps/settings/parsing.h"
 #include "apps/terminal/text.h"
 #include "apps/terminal/version.h"
+#include "renderer/settings/resolved_options.h"
 
 namespace gatelight::apps {
 namespace {
@@ -53,8 +54,9 @@ std::size_t peak_resident_bytes() {
   return static_cast<std::size_t>(usage.ru_maxrss) * 1024;  // Linux counts in KiB
 }
 
-std::string stats_json(const RenderSettings& settings, const RunReport& report) {
+std::string stats_json(RenderSettings settings, const RunReport& report) {
   const renderer::RenderStatistics& s = report.statistics;
+  renderer::use_device(settings.render, s.cache);
   const bool with_cache = renderer::uses_cache(settings.render.integrator);
   ordered_json json;
   json["schema"] = kSchema;

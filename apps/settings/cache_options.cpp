@@ -107,12 +107,24 @@ void read_resolution(neural::GateOptions& gate, const std::string& option, const
   }
 }
 
-std::string read_device(const std::string& option, const std::string& text) {
-  constexpr std::string_view kChosen = "vulkan:";
-  const bool chosen = text.starts_with(kChosen) && text.size() > kChosen.size();
-  if (text != "cpu" && text != "vulkan" && !chosen)
-    refuse_choice(option, text, "cpu|vulkan|vulkan:INDEX|vulkan:NAME");
-  return text;
+Option device_option(std::string& device, bool& choose) {
+  constexpr const char* kAuto = "auto";
+  const auto value = [&]() -> OptionValue { return choose ? kAuto : device; };
+  const auto read = [&](const std::string& text) {
+    constexpr std::string_view kNamed = "vulkan:";
+    const bool named = text.starts_with(kNamed) && text.size() > kNamed.size();
+    if (text != kAuto && text != "cpu" && text != "vulkan" && !named)
+      refuse_choice("device", text, "auto|cpu|vulkan|vulkan:INDEX|vulkan:NAME");
+    choose = text == kAuto;
+    device = choose ? "cpu" : text;
+  };
+  return {.name = "device",
+          .unit = "auto|cpu|vulkan[:INDEX|NAME]",
+          .help =
+              "Device that trains and evaluates the cache; auto (default of presets): a graphics device if "
+              "some steps are faster there",
+          .value = value,
+          .read = read};
 }
 
 int read_start_step(const std::string& option, const std::string& text) {
@@ -303,11 +315,7 @@ void add_answer_options(std::vector<Option>& table, CacheOptions& options) {
   group.add(choice("query-precision", options.bf16_queries, kPrecisions,
                    "Arithmetic of answers in the picture; bf16 is faster if the processor supports it"),
             {.of_field = true});
-  group.add(
-      read_by(
-          "device", options.device, "cpu|vulkan[:INDEX|NAME]", "Device that trains and evaluates the cache",
-          [](const std::string& device) { return device; }, read_device),
-      {.of_field = true});
+  group.add(device_option(options.device, options.choose_device), {.of_field = true});
 }
 
 }  // namespace
@@ -317,7 +325,8 @@ void add_cache_options(std::vector<Option>& table, CacheOptions& options) {
                                 samples_from_step, candidates, self_training, node_spacing, encoding, gate,
                                 hash_grid, memory_bytes, mlp, training, direction_input, normal_input,
                                 albedo_input, scout, component, query_at, view, min_roughness,
-                                spread_threshold, bf16_queries, device, cache_in, cache_out] = options;
+                                spread_threshold, bf16_queries, device, choose_device, cache_in, cache_out] =
+      options;
   const std::size_t others = table.size();
   add_learning_options(table, options);
   add_shape_options(table, options);

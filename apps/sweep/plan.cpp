@@ -56,6 +56,7 @@ RenderSettings settle(FlagValues& flags, bool named = false) {
     for (const std::string& name : options_without_effect(settings)) dropped |= drop_flag(flags, "--" + name);
     if (!has_cache && !named) dropped |= drop_flag(flags, "--spp");
   }
+  settings.render.cache.choose_device = false;  // cells are compared
   if (!settings.exposure) {
     throw BadOption({"exposure", "auto", "differs between pictures", "a number of stops for a sweep"});
   }

@@ -137,6 +137,7 @@ bool ViewSession::is_overtaken(const Task& task) {
 
 renderer::RenderOptions ViewSession::options_of(const Task& task) const {
   renderer::RenderOptions final = task.settings.render;
+  final.cache.choose_device = false;  // a trial would delay pictures
   // A final picture chooses by its own view, as render does; frames share a cache, or none.
   if (task.stage != Stage::final && chosen_) renderer::use_chosen(final, *chosen_);
   if (!task.layer.empty() && task.stage != Stage::draft) {

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <optional>
 
 #include "base/errors.h"
 #include "base/to_number.h"
@@ -30,10 +29,15 @@ std::string listing(std::span<const DeviceFacts> devices) {
   return text;
 }
 
-std::size_t choose_best(std::span<const DeviceFacts> devices) {
+std::optional<std::size_t> best_of(std::span<const DeviceFacts> devices) {
   std::optional<std::size_t> best;
   for (std::size_t i = 0; i < devices.size(); ++i)
     if (refusal(devices[i]).empty() && (!best || devices[i].kind < devices[*best].kind)) best = i;
+  return best;
+}
+
+std::size_t choose_best(std::span<const DeviceFacts> devices) {
+  const std::optional<std::size_t> best = best_of(devices);
   if (!best) throw Unavailable("no Vulkan device can be used: " + listing(devices));
   return *best;
 }
@@ -78,6 +82,11 @@ std::size_t choose_device(std::span<const DeviceFacts> devices, std::string_view
   if (!reason.empty())
     throw Unavailable(fmt::format("Vulkan device {} ({}) {}", chosen, devices[chosen].name, reason));
   return chosen;
+}
+
+std::optional<std::size_t> choose_hardware(std::span<const DeviceFacts> devices) {
+  const std::optional<std::size_t> best = best_of(devices);
+  return best && devices[*best].kind < DeviceKind::software ? best : std::nullopt;
 }
 
 }  // namespace gatelight::neural::vulkan

@@ -2,6 +2,7 @@
 // The choice of a device. It makes no Vulkan call, so that it can be tested without a device.
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -31,5 +32,8 @@ std::string refusal(const DeviceFacts& device);
 /// The index of the device that `wanted` names: an index, or part of a name, ignoring case. If it is empty,
 /// the first usable device of the best kind. Throws Unavailable, which lists the devices.
 std::size_t choose_device(std::span<const DeviceFacts> devices, std::string_view wanted);
+
+/// The index of the first usable device of the best kind that is hardware; empty if there is none.
+std::optional<std::size_t> choose_hardware(std::span<const DeviceFacts> devices);
 
 }  // namespace gatelight::neural::vulkan

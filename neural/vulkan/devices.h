@@ -1,6 +1,6 @@
 #pragma once
 // The available Vulkan devices. This header includes no Vulkan header. It also exists in builds without
-// Vulkan, where all functions except is_built_in throw Unavailable.
+// Vulkan, where all functions except is_built_in and hardware_device throw Unavailable.
 
 #include <cstdint>
 #include <memory>
@@ -29,6 +29,10 @@ std::vector<DeviceListing> list_devices();
 /// The name of the device that open_machine would use for MachineOptions::device. Throws Unavailable as it
 /// does.
 std::string device_name(const std::string& wanted);
+
+/// The name of the best usable device that is hardware; empty if there is none. Opens the loader only where
+/// the system has a graphics device.
+std::string hardware_device();
 
 /// Vulkan's validation layer found a mistake of the program.
 struct ValidationFailed : std::logic_error {

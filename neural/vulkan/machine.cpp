@@ -4,8 +4,12 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <filesystem>
 #include <limits>
+#include <optional>
+#include <span>
 #include <string_view>
+#include <system_error>
 
 #include "base/errors.h"
 #include "neural/vulkan/errors.h"
@@ -26,12 +30,24 @@ std::uint64_t submissions_before_loss() {
   return count != 0 ? count : std::numeric_limits<std::uint64_t>::max();
 }
 
-vk::raii::PhysicalDevice choose(const Instance& instance, const std::string& wanted) {
-  std::vector<vk::raii::PhysicalDevice> devices = instance.devices();
+std::vector<DeviceFacts> facts_of_all(std::span<const vk::raii::PhysicalDevice> devices) {
   std::vector<DeviceFacts> facts;
   facts.reserve(devices.size());
   for (const vk::raii::PhysicalDevice& device : devices) facts.push_back(facts_of(device));
-  return std::move(devices[choose_device(facts, wanted)]);
+  return facts;
+}
+
+vk::raii::PhysicalDevice choose(const Instance& instance, const std::string& wanted) {
+  std::vector<vk::raii::PhysicalDevice> devices = instance.devices();
+  return std::move(devices[choose_device(facts_of_all(devices), wanted)]);
+}
+
+/// Whether Linux has a file through which a driver would reach a device: of Mesa, NVIDIA, or Windows' host.
+bool has_device_file() {
+  const char* const files[] = {"/dev/dri", "/dev/nvidiactl", "/dev/dxg"};
+  std::error_code unreadable;
+  return std::ranges::any_of(files,
+                             [&](const char* file) { return std::filesystem::exists(file, unreadable); });
 }
 
 }  // namespace
@@ -72,6 +88,20 @@ std::string device_name(const std::string& wanted) {
     const Instance instance(false, nullptr);
     return facts_of(choose(instance, wanted)).name;
   });
+}
+
+std::string hardware_device() {
+  if (!has_device_file()) return "";
+  try {
+    return translated("Vulkan", "listing devices", [] {
+      const Instance instance(false, nullptr);
+      const std::vector<DeviceFacts> facts = facts_of_all(instance.devices());
+      const std::optional<std::size_t> best = choose_hardware(facts);
+      return best ? facts[*best].name : "";
+    });
+  } catch (const Unavailable&) {
+    return "";
+  }
 }
 
 std::shared_ptr<Machine> open_machine(const MachineOptions& options) {

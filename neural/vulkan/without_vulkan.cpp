@@ -25,6 +25,10 @@ std::string device_name(const std::string&) {
   refuse();
 }
 
+std::string hardware_device() {
+  return "";
+}
+
 std::shared_ptr<Machine> open_machine(const MachineOptions&) {
   refuse();
 }

@@ -16,6 +16,7 @@
 #include "base/parallel/team.h"
 #include "renderer/cache/cache_backend.h"
 #include "renderer/cache/cache_model.h"
+#include "renderer/cache/device_trial.h"
 #include "renderer/cache/light_change.h"
 #include "renderer/cache/occlusion_records.h"
 #include "renderer/cache/radiance_records.h"
@@ -104,8 +105,12 @@ CacheSession::CacheSession(const World& world, const Camera& camera, const Pixel
   const std::shared_ptr<const neural::Model> cache_model = make_cache_model(world, options, setup_);
   if (expect_model) expect_model(*cache_model);
   check_memory(world.scene, options, *cache_model);
-  trainer_ = std::make_unique<neural::Trainer>(cache_model, training_options(options),
-                                               make_cache_backend(cache_model, options));
+  const bool chooses =
+      options.cache.choose_device && !setup && exchange_.is_alone() && options.checkpoint.file.empty();
+  trainer_ = std::make_unique<neural::Trainer>(
+      cache_model, training_options(options),
+      chooses ? choose_cache_backend(cache_model, options, statistics_.trial)
+              : make_cache_backend(cache_model, options));
   connect(world, camera, region);
   const auto count = [](neural::Sides sides) {
     return static_cast<std::uint64_t>(std::popcount(static_cast<unsigned>(sides)));
@@ -128,6 +133,8 @@ CacheSession::CacheSession(const World& world, const Camera& camera, const Pixel
   statistics_.parameter_bytes = trainer_->backend().parameter_bytes();
   statistics_.optimizer_bytes = trainer_->backend().optimizer_bytes();
   statistics_.backend = trainer_->backend().name();
+  const std::optional<DeviceTrial>& trial = statistics_.trial;
+  statistics_.device = trial && device_is_faster(*trial) ? "vulkan:" + trial->device : options.cache.device;
   statistics_.setup_seconds = seconds_since(start);
   first_statistics_ = statistics_;
 }

@@ -86,19 +86,24 @@ struct CacheOptions {
 
   // Files and machine.
   std::string device = "cpu";
+  /// Take a graphics device instead of the CPU if a trial is faster there (cache/device_trial.h). Not with
+  /// files or processes that have to agree: checkpoints, loaded caches, ranks.
+  bool choose_device = false;
   std::string cache_in;
   std::string cache_out;
 };
 
 /// Adds the name and value of each member that affects bits, as add_plain_members() of RenderOptions does.
-/// The time limit of training and the output file affect none.
+/// The time limit of training and the output file affect none; a device is only chosen where it need not be
+/// known before.
 template <class Texts>
 void add_plain_members(Texts& texts, const CacheOptions& options) {
   [[maybe_unused]] const auto& [train_steps, train_seconds, batch, path_length, samples_per_point, source,
                                 samples_from_step, candidates, self_training, node_spacing, encoding, gate,
                                 hash_grid, memory_bytes, mlp, training, direction_input, normal_input,
                                 albedo_input, scout, component, query_at, view, min_roughness,
-                                spread_threshold, bf16_queries, device, cache_in, cache_out] = options;
+                                spread_threshold, bf16_queries, device, choose_device, cache_in, cache_out] =
+      options;
   const auto& [start_step, vertices, full_fraction, attenuation] = self_training;
   const auto& [width, hidden_layers, outputs, leaky_slope, biases] = mlp;
   texts.add("train-steps", train_steps, "auto");

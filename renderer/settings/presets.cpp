@@ -86,6 +86,7 @@ void apply_preset(CachePreset preset, RenderOptions& options) {
       break;
     }
   }
+  cache.choose_device = true;
 }
 
 void apply_preset_of_frames(CachePreset preset, RenderOptions& options) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/errors.h"
 #include "renderer/settings/enum_names.h"
 
 namespace gatelight::renderer {
@@ -56,6 +57,12 @@ void use_integrator(RenderOptions& options, Integrator integrator) {
   options.choose_integrator = false;
   options.integrator = integrator;
   if (integrator == Integrator::path && options.spp_of_paths > 0) options.spp = options.spp_of_paths;
+}
+
+void use_device(RenderOptions& options, const CacheStatistics& made) {
+  if (made.device.empty()) return;
+  options.cache.choose_device = false;
+  options.cache.device = made.device;
 }
 
 }  // namespace gatelight::renderer

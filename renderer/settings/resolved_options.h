@@ -5,6 +5,7 @@
 
 #include "base/math.h"
 #include "renderer/settings/options.h"
+#include "renderer/settings/statistics.h"
 
 namespace gatelight::renderer {
 
@@ -30,5 +31,8 @@ void use_chosen(RenderOptions& options, const ChosenOptions& chosen);
 
 /// Sets the integrator that RenderOptions::choose_integrator led to. With path, spp_of_paths replaces spp.
 void use_integrator(RenderOptions& options, Integrator integrator);
+
+/// Sets the device that CacheOptions::choose_device led to, if the picture has a cache.
+void use_device(RenderOptions& options, const CacheStatistics& made);
 
 }  // namespace gatelight::renderer

@@ -42,6 +42,13 @@ struct RayCounts {
   }
 };
 
+/// The times by which CacheOptions::choose_device chose.
+struct DeviceTrial {
+  std::string device;        ///< the one that was tried besides the CPU
+  double cpu_seconds = 0.0;  ///< of a step
+  double device_seconds = 0.0;
+};
+
 /// Statistics of the cache; zero for integrators without one. Seconds are wall time.
 struct CacheStatistics {
   int steps = 0;  ///< trained for this picture, excluding those of a loaded cache
@@ -79,8 +86,10 @@ struct CacheStatistics {
   std::size_t optimizer_bytes = 0;
   std::size_t layout_bytes = 0;
   std::string backend;
-  double light_change = 0.0;  ///< in an animation, since the previous frame (cache/light_change.h)
-  std::string diverged;       ///< why training returned to its last good state (`steps`); else empty
+  std::string device;                ///< CacheOptions::device, as it was given or chosen
+  std::optional<DeviceTrial> trial;  ///< if a device was tried
+  double light_change = 0.0;         ///< in an animation, since the previous frame (cache/light_change.h)
+  std::string diverged;              ///< why training returned to its last good state (`steps`); else empty
 };
 
 /// Statistics of one of several processes that make a picture together.

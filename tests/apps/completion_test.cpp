@@ -27,7 +27,7 @@ TEST(Completion, NamesSubcommandsFlagsAndValues) {
               AllOf(HasSubstr("\n--tonemap\n"), HasSubstr("--config\n")));
   EXPECT_THAT(words_for({"merge", "-"}), AllOf(HasSubstr("\n--output\n"), Not(HasSubstr("--tonemap"))));
   EXPECT_EQ(words_for({"render", "a.glb", "--denoiser", ""}), "auto\noidn\nnone\n");
-  EXPECT_EQ(words_for({"render", "--device", "v"}), "cpu\nvulkan\n");
+  EXPECT_EQ(words_for({"render", "--device", "v"}), "auto\ncpu\nvulkan\n");
   EXPECT_EQ(words_for({"render", "--stats", ""}), "\n") << "a file";
   EXPECT_EQ(words_for({"render", "a"}), "\n") << "a file";
 }

@@ -95,6 +95,25 @@ TEST(CacheStatistics, AreInTheStatisticsFile) {
   EXPECT_EQ(stats["device"], "cpu");
 }
 
+TEST(CacheStatistics, TellTheDeviceThatWasChosen) {
+  RenderSettings settings;
+  settings.render.integrator = Integrator::nrc;
+  settings.render.cache.choose_device = true;
+  RunReport report;
+  CacheStatistics& s = report.statistics.cache = some_statistics();
+  EXPECT_EQ(json::parse(stats_json(settings, report))["options"]["device"], "auto");
+  s.device = "vulkan:H100";
+  s.trial = {"H100", 0.002, 0.0005};
+  const json stats = json::parse(stats_json(settings, report));
+  EXPECT_EQ(stats["device"], "vulkan:H100");
+  EXPECT_EQ(stats["options"]["device"], "vulkan:H100");
+  const json trial = {{"device", "H100"}, {"cpu_seconds", 0.002}, {"device_seconds", 0.0005}};
+  EXPECT_EQ(stats["cache"]["trial"], trial);
+  EXPECT_THAT(cache_summary(s, ""),
+              ::testing::HasSubstr("vulkan:H100, chosen because a step takes 2.00 ms on the "
+                                   "CPU and 0.50 ms on H100\n"));
+}
+
 TEST(CacheStatistics, AreAbsentWithoutACache) {
   const json stats = statistics_of(Integrator::path);
   for (const char* key : {"train", "cache"}) EXPECT_FALSE(stats.contains(key)) << key;

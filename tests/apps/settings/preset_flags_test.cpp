@@ -82,6 +82,17 @@ TEST(PresetFlags, ChooseTheIntegratorUnlessItIsGiven) {
   EXPECT_EQ(chosen.render.integrator, Integrator::nrc);
 }
 
+TEST(PresetFlags, ChooseTheDeviceUnlessItIsGiven) {
+  for (const char* const preset : {"bare", "final", "paper-nao"}) {
+    EXPECT_TRUE(read_flags({"--preset", preset}).render.cache.choose_device);
+    EXPECT_FALSE(read_flags({"--preset", preset, "--device", "cpu"}).render.cache.choose_device);
+  }
+  EXPECT_FALSE(read_flags({"--integrator", "nrc"}).render.cache.choose_device);
+  const RenderSettings chosen = read_flags({"--integrator", "nrc", "--device", "auto"});
+  EXPECT_TRUE(chosen.render.cache.choose_device);
+  EXPECT_EQ(chosen.render.cache.device, "cpu");
+}
+
 TEST(Recipe, CanBePassedBackAsFlags) {
   for (const char* flags :
        {"--size 64x32 --region 1,2,3,4 --spp 3 --seed 4294967295 --aov all --eye 1,-2.5,3 --target 0,0.1,0 "

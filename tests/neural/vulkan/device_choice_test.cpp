@@ -37,6 +37,17 @@ TEST(DeviceChoice, TheBestKindThatCanBeUsedIsTaken) {
                  {"llvmpipe", "8192 bytes", "Arc", "H200", "bufferDeviceAddress", "H100", "Vulkan 1.1"});
 }
 
+TEST(DeviceChoice, SoftwareIsNotHardware) {
+  std::vector<DeviceFacts> devices = {usable("llvmpipe", DeviceKind::software),
+                                      usable("mystery", DeviceKind::other)};
+  EXPECT_EQ(choose_hardware({}), std::nullopt);
+  EXPECT_EQ(choose_hardware(devices), std::nullopt);
+  devices.push_back(usable("Arc", DeviceKind::integrated));
+  EXPECT_EQ(choose_hardware(devices), 2u);
+  devices[2].shared_bytes = 8192;
+  EXPECT_EQ(choose_hardware(devices), std::nullopt);
+}
+
 TEST(DeviceChoice, AnIndexOrPartOfANameNamesADevice) {
   const std::vector<DeviceFacts> devices = {usable("NVIDIA H200", DeviceKind::discrete),
                                             usable("llvmpipe (LLVM 15)", DeviceKind::software)};
