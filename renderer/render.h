@@ -142,8 +142,9 @@ class Renderer {
   void write_frame(const std::filesystem::path& path, std::optional<float> exposure) const;
 
   /// Renders the picture. The same scene, options and Embree ISA give the same bits for any number of threads
-  /// and processes, unless a time limit ends the render. The first of several processes gets the picture and
-  /// writes the files, and the others get an empty picture; a stop request to one of them stops all.
+  /// and processes, unless a time limit ends the render or the first picture chooses another device
+  /// (CacheOptions::choose_device). The first of several processes gets the picture and writes the files, and
+  /// the others get an empty picture; a stop request to one of them stops all.
   Picture render(const Callbacks& callbacks = {});
   /// Calls `picture` for each point, in order. The picture has the bits that render() gives with these steps
   /// or samples. Returns false if callbacks.stop ends the series early; `picture` is not called for the

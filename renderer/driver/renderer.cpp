@@ -8,6 +8,7 @@
 #include "renderer/driver/picture_run.h"
 #include "renderer/driver/render_series.h"
 #include "renderer/render.h"
+#include "renderer/settings/resolved_options.h"
 #include "renderer/temporal/frame_file.h"
 
 namespace gatelight::renderer {
@@ -115,7 +116,10 @@ FrameStatus read_frame_status(const std::filesystem::path& path) {
 Picture Renderer::render(const Callbacks& callbacks) {
   const FlushDenormals flush;
   Implementation& self = *implementation_;
-  return render_picture({self.picture, *self.team, callbacks}, self.statistics);
+  Picture picture = render_picture({self.picture, *self.team, callbacks}, self.statistics);
+  for (RenderOptions* of : {&self.picture.options, &self.picture.options_of_picture})
+    use_device(*of, self.statistics.cache);  // later pictures choose the same
+  return picture;
 }
 
 bool Renderer::render_series(const Series& series, const SeriesPicture& picture, const Callbacks& callbacks) {

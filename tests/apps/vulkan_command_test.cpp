@@ -90,7 +90,7 @@ TEST_F(VulkanCommand, ACheckpointOutlivesALostDevice) {
         "--checkpoint {} --checkpoint-every 0 --resume",
         {path(picture), path("checkpoint")});
   };
-  for (const char* after : {"12", "40"}) {
+  for (const char* after : {"6", "40"}) {
     setenv("GATELIGHT_VULKAN_LOSE_AFTER", after, 1);
     const Output lost = render(words("resumed.exr"));
     unsetenv("GATELIGHT_VULKAN_LOSE_AFTER");
