@@ -1,4 +1,4 @@
-// gatelight-bench: the micro-benchmarks. Filters, repetitions and JSON come with Google Benchmark (--help).
+// The main of gatelight-bench and gatelight-bench-neural. Filters, repetitions and JSON come with Google Benchmark (--help).
 // --schedule=FILE, the last argument, records the schedule of the last row of picture/ or small_steps/.
 
 #include <benchmark/benchmark.h>

@@ -67,6 +67,18 @@ class TrainingBatches {
   neural::TrainingBatch operator[](std::size_t i) const {
     return {points_[i % count()].query_batch(), targets[i % count()]};
   }
+  /// `records` of batch i from `first` on.
+  neural::TrainingBatch part(std::size_t i, std::size_t first, std::size_t records) const {
+    const auto some = [&](const auto& span, std::size_t each = 1) {
+      return span.empty() ? span : span.subspan(each * first, each * records);
+    };
+    const neural::TrainingBatch all = (*this)[i];
+    const neural::QueryBatch& p = all.points;
+    const neural::QueryBatch points{some(p.surfaces),  some(p.triangles),   some(p.barycentrics),
+                                    some(p.positions), some(p.directions),  some(p.normals),
+                                    some(p.albedos),   some(p.roughnesses), records};
+    return {points, some(all.targets, all.targets.size() / all.points.size)};
+  }
 
   std::vector<std::vector<float>> targets;
 

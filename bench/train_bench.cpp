@@ -74,21 +74,11 @@ void small_steps(benchmark::State& state, Order order) {
   tbb::task_arena(threads).execute([&] {
     const TrainCase which{{Cache::nrc, Encoding::gate}, order};
     Learner learner(which);
-    const auto some = [](const auto& span, std::size_t first) {
-      return span.empty() ? span : span.subspan(first, kRecords);
-    };
-    const auto part = [&](const neural::TrainingBatch& all, std::size_t first) {
-      const neural::QueryBatch& p = all.points;
-      const neural::QueryBatch points{
-          some(p.surfaces, first),  some(p.triangles, first),   some(p.barycentrics, first),
-          some(p.positions, first), some(p.directions, first),  some(p.normals, first),
-          some(p.albedos, first),   some(p.roughnesses, first), kRecords};
-      return neural::TrainingBatch{points, all.targets.subspan(3 * first, 3 * kRecords)};
-    };
     const auto all_steps = [&] {
-      const neural::TrainingBatch batch = learner.batches[learner.steps++];
+      const std::size_t batch = learner.steps++;
       Team::run([&](Team& team) {
-        for (std::size_t i = 0; i < kSteps; ++i) learner.backend->train(part(batch, i * kRecords), team);
+        for (std::size_t i = 0; i < kSteps; ++i)
+          learner.backend->train(learner.batches.part(batch, i * kRecords, kRecords), team);
       });
     };
     std::string record;

@@ -1,6 +1,7 @@
 // vulkan/train_step and vulkan/query: the same rows as for the CPU, on the device that the environment
-// variable GATELIGHT_BENCH_VULKAN names ("" is the best one). Without the variable there are no rows.
-// Counters are milliseconds of the device; the time of a row is that of the caller.
+// variable GATELIGHT_BENCH_VULKAN names ("" is the best one), and vulkan/small_step: steps of 2048 records.
+// Without the variable there are no rows. Counters are milliseconds and work of the device; the time of a row
+// is that of the caller.
 
 #include <fmt/format.h>
 
@@ -23,15 +24,37 @@ std::shared_ptr<vulkan::Machine> shared_machine() {
   return opened;
 }
 
-void train_step(benchmark::State& state, const NeuralCase& which, Order order) {
+/// Reports the mean work of an iteration since the construction.
+class CountedWork {
+ public:
+  void report(benchmark::State& state) const {
+    const vulkan::DeviceWork now = vulkan::work_of(*shared_machine());
+    const auto add = [&](const char* name, std::uint64_t vulkan::DeviceWork::*count) {
+      state.counters[name] = {static_cast<double>(now.*count - before_.*count),
+                              benchmark::Counter::kAvgIterations};
+    };
+    add("submissions", &vulkan::DeviceWork::submissions);
+    add("dispatches", &vulkan::DeviceWork::dispatches);
+    add("barriers", &vulkan::DeviceWork::barriers);
+    add("bytes_to_device", &vulkan::DeviceWork::bytes_to_device);
+    add("bytes_from_device", &vulkan::DeviceWork::bytes_from_device);
+  }
+
+ private:
+  vulkan::DeviceWork before_ = vulkan::work_of(*shared_machine());
+};
+
+void train_step(benchmark::State& state, const NeuralCase& which, Order order, std::size_t records) {
   const auto model = neural_model(which);
   const auto backend = vulkan::make_vulkan_backend(shared_machine(), model, {});
   const TrainingBatches batches(order, model->config.mlp.outputs);
-  for (std::size_t i = 0; i < batches.count(); ++i) backend->train(batches[i]);  // warm up
+  const auto batch = [&](std::size_t i) { return batches.part(i, 0, records); };
+  for (std::size_t i = 0; i < batches.count(); ++i) backend->train(batch(i));  // warm up
+  const CountedWork work;
   StepSums sums;
   std::size_t started = 0, finished = 0;
   for (auto _ : state) {
-    backend->start(batches[started++]);
+    backend->start(batch(started++));
     if (started - finished <= kAhead) continue;
     sums.add(backend->finish());
     ++finished;
@@ -39,6 +62,7 @@ void train_step(benchmark::State& state, const NeuralCase& which, Order order) {
   for (; finished < started; ++finished) sums.add(backend->finish());
   state.counters["device_ms"] = mean_ms(sums.step.seconds);
   sums.report(state);
+  work.report(state);
 }
 
 void query(benchmark::State& state, const NeuralCase& which, Order order, neural::QueryPrecision precision) {
@@ -49,7 +73,9 @@ void query(benchmark::State& state, const NeuralCase& which, Order order, neural
   neural::QueryOptions options;
   options.precision = precision;
   backend->query(points.query_batch(), options, out);  // warm up
+  const CountedWork work;
   for (auto _ : state) backend->query(points.query_batch(), options, out);
+  work.report(state);
 }
 
 const bool vulkan_registered = [] {
@@ -59,9 +85,12 @@ const bool vulkan_registered = [] {
       for (const Order order : {Order::coherent, Order::random}) {
         const NeuralCase which{cache, encoding};
         const std::string tail = case_name(which) + "/" + order_name(order);
-        benchmark::RegisterBenchmark(("vulkan/train_step/" + tail).c_str(), train_step, which, order)
-            ->Unit(benchmark::kMillisecond)
-            ->UseRealTime();
+        for (const auto& [word, records] :
+             {std::pair{"train_step", std::size_t{kBatchRecords}}, {"small_step", std::size_t{2048}}})
+          benchmark::RegisterBenchmark(fmt::format("vulkan/{}/{}", word, tail).c_str(), train_step, which,
+                                       order, records)
+              ->Unit(benchmark::kMillisecond)
+              ->UseRealTime();
         for (const auto& [word, precision] :
              {std::pair{"fp32", neural::QueryPrecision::fp32}, {"bf16", neural::QueryPrecision::bf16}})
           benchmark::RegisterBenchmark(fmt::format("vulkan/query/{}/{}", tail, word).c_str(), query, which,

@@ -12,7 +12,7 @@ if(TARGET gatelight-mpi)
   install(TARGETS gatelight-mpi RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT mpi)
 endif()
 if(TARGET gatelight-bench)
-  install(TARGETS gatelight-bench RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT bench)
+  install(TARGETS gatelight-bench gatelight-bench-neural RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT bench)
 endif()
 
 foreach(folder IN ITEMS base scene neural renderer)

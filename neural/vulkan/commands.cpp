@@ -11,6 +11,7 @@ Commands::Commands(const vk::raii::CommandBuffer& buffer, Machine& machine, Addr
   push_.model = model;
   push_.batch = batch;
   begin_commands(buffer_);
+  ++machine_.work().barriers;
 }
 
 void Commands::dispatch(Shader shader, std::span<const std::uint32_t> constants, std::uint64_t groups,
@@ -24,14 +25,18 @@ void Commands::dispatch(Shader shader, std::span<const std::uint32_t> constants,
   const std::uint64_t across = std::min<std::uint64_t>(groups, machine_.device().limits().groups);
   const std::uint64_t down = (groups + across - 1) / across;
   buffer_.dispatch(static_cast<std::uint32_t>(across), static_cast<std::uint32_t>(down), 1);
+  ++machine_.work().dispatches;
 }
 
 void Commands::barrier() {
   full_barrier(buffer_);
+  ++machine_.work().barriers;
 }
 
 void Commands::copy(const Buffer& from, const Buffer& to, std::uint64_t bytes) {
   buffer_.copyBuffer(from.handle(), to.handle(), vk::BufferCopy(0, 0, bytes));
+  if (from.mapped() != nullptr) machine_.work().bytes_to_device += bytes;
+  if (to.mapped() != nullptr) machine_.work().bytes_from_device += bytes;
 }
 
 void Commands::fill(const Buffer& to, std::uint32_t word) {
@@ -49,6 +54,7 @@ void Commands::stamp(const vk::raii::QueryPool& pool, std::uint32_t number) {
 void Commands::submit(const vk::raii::Fence& fence) {
   machine_.count_submission();
   submit_commands(machine_.device(), buffer_, fence);
+  ++machine_.work().barriers;
 }
 
 }  // namespace gatelight::neural::vulkan

@@ -77,4 +77,12 @@ std::shared_ptr<Machine> open_machine(const MachineOptions& options);
 
 std::string machine_name(const Machine& machine);
 
+/// What the steps and queries of a machine's backends had the device do. Copies of states are not counted.
+struct DeviceWork {
+  std::uint64_t submissions = 0, dispatches = 0, barriers = 0;
+  std::uint64_t bytes_to_device = 0, bytes_from_device = 0;
+};
+/// Sums since the machine was opened.
+DeviceWork work_of(const Machine& machine);
+
 }  // namespace gatelight::neural::vulkan

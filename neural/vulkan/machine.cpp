@@ -62,7 +62,7 @@ Machine::Machine(const MachineOptions& options)
       lose_after_(submissions_before_loss()) {}
 
 void Machine::count_submission() {
-  if (++submissions_ > lose_after_) throw vk::DeviceLostError("lost for a test");
+  if (++work_.submissions > lose_after_) throw vk::DeviceLostError("lost for a test");
 }
 
 bool is_built_in() {
@@ -110,6 +110,10 @@ std::shared_ptr<Machine> open_machine(const MachineOptions& options) {
 
 std::string machine_name(const Machine& machine) {
   return machine.device().name();
+}
+
+DeviceWork work_of(const Machine& machine) {
+  return machine.work();
 }
 
 }  // namespace gatelight::neural::vulkan

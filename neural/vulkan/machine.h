@@ -17,6 +17,9 @@ class Machine {
   /// Must be called for each submission. Throws vk::DeviceLostError where GATELIGHT_VULKAN_LOSE_AFTER is
   /// reached.
   void count_submission();
+  /// Whoever records commands counts them here.
+  DeviceWork& work() { return work_; }
+  const DeviceWork& work() const { return work_; }
   /// Throws ValidationFailed if the validation layer reported a message.
   void check() { instance_.check_messages(); }
 
@@ -25,7 +28,8 @@ class Machine {
   Device device_;
   Pipelines pipelines_;
   std::uint64_t longest_part_;
-  std::uint64_t submissions_ = 0, lose_after_;
+  DeviceWork work_;
+  std::uint64_t lose_after_;
 };
 
 }  // namespace gatelight::neural::vulkan

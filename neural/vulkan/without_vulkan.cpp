@@ -37,6 +37,10 @@ std::string machine_name(const Machine&) {
   refuse();
 }
 
+DeviceWork work_of(const Machine&) {
+  refuse();
+}
+
 // NOLINTNEXTLINE(performance-unnecessary-value-param): with Vulkan they are kept
 std::unique_ptr<Backend> make_vulkan_backend(std::shared_ptr<Machine>, std::shared_ptr<const Model>,
                                              const TrainingOptions&) {

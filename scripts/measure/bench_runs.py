@@ -1,4 +1,4 @@
-"""Runs of gatelight-bench and of the same in PyTorch, and the cores that other programs use meanwhile."""
+"""Runs of the benchmark programs and of the same in PyTorch, and the cores that other programs use meanwhile."""
 
 import json
 import os
