@@ -2,11 +2,15 @@
 
 #include <cstring>
 
+#include "base/parallel/loops.h"
+
 namespace gatelight::neural::vulkan {
 
 namespace {
 
 constexpr std::uint64_t kAlignment = 16;
+/// Points that a task packs.
+constexpr std::size_t kPackedPoints = 8192;
 
 std::uint64_t aligned(std::uint64_t bytes) {
   return (bytes + kAlignment - 1) / kAlignment * kAlignment;
@@ -50,14 +54,19 @@ std::uint64_t upload_bytes(const Model& model, std::uint64_t points, bool target
 
 void write_upload(const Model& model, const QueryBatch& points, std::span<const float> targets,
                   std::uint64_t begin, Address address, BatchBlock& block, std::byte* to) {
+  const std::vector<Span> spans = spans_of(model, points, targets, !targets.empty());
   std::uint64_t at = aligned(sizeof(BatchBlock));
-  for (const Span& span : spans_of(model, points, targets, !targets.empty())) {
-    const std::uint64_t bytes = block.size * span.bytes_per_point;
+  for (const Span& span : spans) {
     block.*span.address = address + at;
-    if (bytes > 0)
-      std::memcpy(to + at, static_cast<const std::byte*>(span.data) + begin * span.bytes_per_point, bytes);
-    at += aligned(bytes);
+    at += aligned(block.size * span.bytes_per_point);
   }
+  for_each_range(block.size, kPackedPoints, [&](std::size_t first, std::size_t end) {
+    for (const Span& span : spans) {
+      const std::uint64_t each = span.bytes_per_point;
+      std::memcpy(to + (block.*span.address - address) + first * each,
+                  static_cast<const std::byte*>(span.data) + (begin + first) * each, (end - first) * each);
+    }
+  });
   std::memcpy(to, &block, sizeof(block));
 }
 

@@ -7,10 +7,10 @@
 namespace gatelight::neural::vulkan {
 
 enum class Shader : std::uint8_t {
+  answer,
   count_step,
   count_triangles,
   encode,
-  forward,
   mark_count,
   mark_write,
   pack_network,

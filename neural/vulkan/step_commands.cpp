@@ -29,7 +29,7 @@ void record_network(const StepPlan& plan, Commands& commands) {
   const Model& model = plan.model;
   const std::uint32_t halves = plan.features.halves() ? 1u : 0u;
   commands.dispatch(Shader::encode,
-                    Constants{static_cast<std::uint32_t>(model.config.encoding), halves, 1u,
+                    Constants{static_cast<std::uint32_t>(model.config.encoding), halves,
                               std::max(model.parameters.features, 1u)},
                     groups_for(plan.cut.size));
   commands.barrier();

@@ -16,23 +16,14 @@ constexpr std::uint64_t kPartialBytes = std::uint64_t{64} << 20;
 constexpr std::uint64_t kFewestGroups = 16;
 constexpr std::uint64_t kMaxGroups = 1024;
 
-// A row has one float more than the tile has records, and one float per record lies behind the rows.
-std::uint32_t fitting_tile(std::uint64_t rows, std::uint32_t shared_bytes) {
-  const std::uint64_t floats = shared_bytes / 4;
-  const std::uint64_t most = (floats - rows) / (rows + 1);
-  return static_cast<std::uint32_t>(std::bit_floor(std::clamp<std::uint64_t>(most, 1, kMaxTile)));
-}
-
 }  // namespace
 
+// A row has one float more than the tile has records, and one float per record lies behind the rows.
 std::uint32_t training_tile(const Model& model, std::uint32_t shared_bytes) {
   const MlpOptions& mlp = model.config.mlp;
-  return fitting_tile(model.parameters.inputs + mlp.hidden_layers * mlp.width + kOutputRows, shared_bytes);
-}
-
-std::uint32_t query_tile(const Model& model, std::uint32_t shared_bytes) {
-  const std::uint32_t width = model.config.mlp.width;
-  return fitting_tile(std::max(model.parameters.inputs, width) + width, shared_bytes);
+  const std::uint64_t rows = model.parameters.inputs + mlp.hidden_layers * mlp.width + kOutputRows;
+  const std::uint64_t most = (shared_bytes / 4 - rows) / (rows + 1);
+  return static_cast<std::uint32_t>(std::bit_floor(std::clamp<std::uint64_t>(most, 1, kMaxTile)));
 }
 
 StepCut cut_step(const Model& model, std::uint64_t records, std::uint32_t tile) {

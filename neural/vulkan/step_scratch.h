@@ -11,10 +11,9 @@ namespace gatelight::neural::vulkan {
 /// References per workgroup in sort.glsl and runs.glsl.
 inline constexpr std::uint32_t kSortBlock = 2048;
 
-/// Records that a workgroup of train_network, or of forward, holds in shared memory: the largest power of two
-/// that fits, at most 64.
+/// Records that a workgroup of train_network holds in shared memory: the largest power of two that fits, at
+/// most 64.
 std::uint32_t training_tile(const Model& model, std::uint32_t shared_bytes);
-std::uint32_t query_tile(const Model& model, std::uint32_t shared_bytes);
 
 /// The division of a step. It depends only on the batch's size, the model and the tile, so that sums have one
 /// order.

@@ -117,7 +117,7 @@ TEST_F(VulkanShaders, EncodeFindsTheReferencesNodesAndInputs) {
     Bench bench(model, options, state, batch);
     bench.run(
         Shader::encode,
-        {static_cast<std::uint32_t>(model.config.encoding), 0u, 1u, std::max(model.parameters.features, 1u)},
+        {static_cast<std::uint32_t>(model.config.encoding), 0u, std::max(model.parameters.features, 1u)},
         groups_for(batch.size()));
     const std::size_t slots = model.nodes_per_point(), width = model.parameters.inputs;
     const auto inputs = bench.read<float>(bench.inputs, batch.size() * width);
