@@ -35,12 +35,13 @@ AnswerTile answer_tile(const Model& model, std::uint32_t shared_bytes) {
   constexpr std::uint32_t kBlock = 32;  // values of a layer that a thread computes
   const std::uint32_t width = model.config.mlp.width;
   const std::uint32_t bytes_per_point = 4 * (std::max(model.parameters.inputs, width) + 1);
-  AnswerTile tile;
-  tile.points = std::min(kWorkgroupThreads, kWorkgroupThreads * kBlock / width);
-  while (tile.points * bytes_per_point > shared_bytes) tile.points /= 2;
-  const auto vectors = static_cast<std::uint32_t>(forward_floats(model) / 4);
-  if (tile.points * bytes_per_point + 16 * vectors <= shared_bytes) tile.staged_vectors = vectors;
-  return tile;
+  const auto fits = [&](const AnswerTile& tile) {
+    return tile.points * bytes_per_point + 16 * tile.staged_vectors <= shared_bytes;
+  };
+  AnswerTile tile{.points = std::min(kWorkgroupThreads, kWorkgroupThreads * kBlock / width)};
+  while (!fits(tile)) tile.points /= 2;
+  const AnswerTile staged{tile.points, static_cast<std::uint32_t>(forward_floats(model) / 4)};
+  return fits(staged) ? staged : tile;
 }
 
 Answers::Answers(Machine& machine, const Model& model, const FeatureStore& features,

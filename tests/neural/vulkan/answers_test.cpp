@@ -1,5 +1,8 @@
 // Answers of the Vulkan backend agree with the reference.
 
+#include <bit>
+
+#include "neural/vulkan/answers.h"
 #include "tests/neural/agreement_loops.h"
 #include "tests/neural/vulkan/agreement.h"
 
@@ -28,6 +31,25 @@ TEST_F(VulkanAnswers, AgreeForUsualModels) {
   }
 }
 
+// Inputs, one word per point, and weights; a thread computes at most one block of a layer's outputs.
+TEST(VulkanAnswerTile, FitsTheSharedMemory) {
+  std::vector<Model> models = {*find_model_case("nrc").model};
+  models.front().parameters.inputs = 255;  // with the word per point, 2^k bytes
+  for (const ModelCase& c : all_model_cases()) models.push_back(*c.model);
+  for (const Model& model : models)
+    for (const std::uint32_t bytes : {16384u, 32768u, 49152u, 65536u}) {
+      const vulkan::AnswerTile tile = vulkan::answer_tile(model, bytes);
+      const std::uint32_t width = model.config.mlp.width, columns = width < 32 ? 4 : 8;
+      const std::uint32_t rows = std::max(model.parameters.inputs, width);
+      EXPECT_TRUE(std::has_single_bit(tile.points) && tile.points >= 4) << tile.points;
+      EXPECT_LE(tile.points / 4 * (width / columns), vulkan::kWorkgroupThreads);
+      EXPECT_LE(4 * tile.points * (rows + 1) + 16 * tile.staged_vectors, bytes);
+    }
+  EXPECT_EQ(vulkan::answer_tile(*find_model_case("nrc").model, 49152).points, 128u);
+  EXPECT_GT(vulkan::answer_tile(*find_model_case("nrc").model, 49152).staged_vectors, 1u);
+  EXPECT_EQ(vulkan::answer_tile(*find_model_case("mlp_5x128").model, 49152).staged_vectors, 1u);
+}
+
 // Directions whose angle is 0 / 0, and barycentrics that are on a node or huge.
 TEST_F(VulkanAnswers, AgreeAtPolesCornersAndFarOutside) {
   constexpr std::array<std::array<float, 3>, 7> kDirections = {
@@ -53,7 +75,7 @@ TEST_F(VulkanAnswers, AgreeAtPolesCornersAndFarOutside) {
   }
 }
 
-// A query is split into chunks of 2^18 points.
+// A query is split into chunks of 2^17 points.
 TEST_F(VulkanAnswers, AgreeForMorePointsThanAChunk) {
   const ModelCase c = find_model_case("nao");
   const TrainingOptions options;
