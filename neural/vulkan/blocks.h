@@ -15,6 +15,7 @@ using Address = std::uint64_t;
 namespace glsl {
 using uint = std::uint32_t;
 using Words = Address;
+using Pairs = Address;
 using Floats = Address;
 using Vectors = Address;
 using Parts = Address;
@@ -42,6 +43,6 @@ struct PushBlock {
 };
 
 static_assert(sizeof(HashGridLevel) == 20 && offsetof(glsl::Model, hash_levels) == 304);
-static_assert(sizeof(glsl::Model) == 1056 && sizeof(glsl::Batch) == 272);
+static_assert(sizeof(glsl::Model) == 1056 && sizeof(glsl::Batch) == 240);
 
 }  // namespace gatelight::neural::vulkan

@@ -16,6 +16,7 @@ constexpr std::uint32_t kParametersAGroup = 8;  // of update_network
 /// Of shaders whose threads take any number of items: more than an H100 runs at a time (2112). Further ones
 /// would mostly find none, as their number is an upper limit.
 constexpr std::uint64_t kMaxLoopingGroups = 4096;
+constexpr std::uint64_t kMaxSummingGroups = 2048;  // each adds its runs to one counter
 
 bool is_dense(const StepPlan& plan) {
   return plan.options.update == FeatureUpdate::dense;
@@ -25,9 +26,14 @@ std::uint32_t per_triangle(const StepPlan& plan) {
   return plan.options.feature_step == FeatureStep::per_triangle && !is_dense(plan) ? 1u : 0u;
 }
 
+SortPlan sort_of(const StepPlan& plan) {
+  return plan_sort(plan.model.parameters.node_count, plan.cut.references);
+}
+
 void record_network(const StepPlan& plan, Commands& commands) {
   const Model& model = plan.model;
   const std::uint32_t halves = plan.features.halves() ? 1u : 0u;
+  if (plan.cut.references > 0) record_sort_clear(sort_of(plan), commands);
   commands.dispatch(Shader::encode,
                     Constants{static_cast<std::uint32_t>(model.config.encoding), halves,
                               std::max(model.parameters.features, 1u)},
@@ -40,6 +46,7 @@ void record_network(const StepPlan& plan, Commands& commands) {
   }
   if (plan.features.counts_triangles())
     commands.dispatch(Shader::count_triangles, {}, groups_for(plan.cut.size));
+  if (plan.cut.references > 0) record_sort_start(sort_of(plan), commands);
   Constants constants = network_constants(model);
   constants.insert(constants.end(), {plan.tile, std::bit_cast<std::uint32_t>(model.config.mlp.leaky_slope),
                                      plan.options.loss == Loss::relative_l2 ? 1u : 0u});
@@ -50,12 +57,10 @@ void record_network(const StepPlan& plan, Commands& commands) {
 }
 
 void record_gradients(const StepPlan& plan, Commands& commands) {
-  const std::uint32_t sorted = record_sort(plan.model.parameters.node_count, plan.cut.blocks, commands);
-  record_runs(sorted, plan.cut.blocks, commands);
-  const std::uint32_t features = plan.model.parameters.features;
-  const std::uint64_t threads = std::uint64_t{plan.cut.references} * features;
-  commands.dispatch(Shader::sum_pieces, Constants{features, per_triangle(plan)},
-                    std::min(groups_for(threads), kMaxLoopingGroups), sorted);
+  const SortPlan sort = sort_of(plan);
+  record_sort_rest(sort, commands);
+  commands.dispatch(Shader::sum_pieces, Constants{plan.model.parameters.features, per_triangle(plan)},
+                    std::min(groups_for(plan.cut.references), kMaxSummingGroups), sort.result());
   commands.barrier();
 }
 
@@ -64,14 +69,13 @@ void record_updates(const StepPlan& plan, Commands& commands) {
   const std::uint64_t parameters = model.parameters.network_count();
   commands.dispatch(Shader::update_network, {}, (parameters + kParametersAGroup - 1) / kParametersAGroup);
   if (plan.cut.references > 0) {
-    const std::uint64_t nodes = is_dense(plan) ? model.parameters.node_count
-                                               : std::min(plan.cut.references, model.parameters.node_count);
+    const std::uint64_t items = is_dense(plan) ? model.parameters.node_count : plan.cut.references;
     const FeatureStore& features = plan.features;
     commands.dispatch(
         Shader::update_nodes,
         Constants{model.parameters.features, per_triangle(plan), is_dense(plan) ? 1u : 0u,
                   features.floats() ? 1u : 0u, features.halves() ? 1u : 0u, features.averages() ? 1u : 0u},
-        std::min(groups_for(nodes), kMaxLoopingGroups));
+        std::min(groups_for(items), kMaxLoopingGroups), sort_of(plan).result());
   }
   commands.barrier();
 }

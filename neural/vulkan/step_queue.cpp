@@ -115,7 +115,6 @@ BatchBlock StepQueue::block_of(const StepCut& cut, const Group& group, std::size
   block.references = cut.references;
   block.tiles = cut.tiles;
   block.groups = cut.groups;
-  block.blocks = cut.blocks;
   return block;
 }
 

@@ -8,9 +8,6 @@
 
 namespace gatelight::neural::vulkan {
 
-/// References per workgroup in sort.glsl and runs.glsl.
-inline constexpr std::uint32_t kSortBlock = 2048;
-
 /// Records that a workgroup of train_network holds in shared memory: the largest power of two that fits, at
 /// most 64.
 std::uint32_t training_tile(const Model& model, std::uint32_t shared_bytes);
@@ -18,7 +15,7 @@ std::uint32_t training_tile(const Model& model, std::uint32_t shared_bytes);
 /// The division of a step. It depends only on the batch's size, the model and the tile, so that sums have one
 /// order.
 struct StepCut {
-  std::uint32_t size = 0, references = 0, tiles = 0, groups = 0, blocks = 0;
+  std::uint32_t size = 0, references = 0, tiles = 0, groups = 0;
 };
 StepCut cut_step(const Model& model, std::uint64_t records, std::uint32_t tile);
 
@@ -35,7 +32,7 @@ class StepScratch {
 
  private:
   BatchBlock block_;
-  std::array<Buffer, 17> buffers_;
+  std::array<Buffer, 13> buffers_;
 };
 
 }  // namespace gatelight::neural::vulkan

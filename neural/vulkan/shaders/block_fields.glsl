@@ -89,18 +89,15 @@ GATELIGHT_BLOCK(Batch) {
   Floats inputs;  // [input][capacity]
   Words status;
   Words record_triangles;
-  Words keys[2];    // nodes, [record][slot]; the sort alternates between the two arrays
-  Words values[2];  // numbers of the references
+  Words keys;       // nodes, [record][slot]
+  Pairs sorted[2];  // node and number of each reference; the sort alternates between the two arrays
   Floats weights;   // [record][slot]
   Floats feature_gradients;  // [record][feature input]
   Floats losses;             // [tile]
   Floats partials;           // [group][network parameter]
-  Words counts;
-  Words piece_starts;
-  Floats piece_sums;
+  Words counts;              // [row][digit] of the sort
+  Floats piece_sums;         // [piece][feature]
   Words piece_steps;
-  Words nodes;
-  Words node_pieces;
   Words statistics;
   Floats answers;
   Vectors forward;
@@ -109,7 +106,6 @@ GATELIGHT_BLOCK(Batch) {
   uint references;
   uint tiles;
   uint groups;
-  uint blocks;  // number of blocks of references
 };
 
 // Indices of the words of Batch::statistics.
@@ -118,10 +114,16 @@ const uint kRejected = 1;
 const uint kUnstored = 2;
 const uint kClipped = 3;
 const uint kSkipped = 4;
-const uint kPieces = 5;
-const uint kTouched = 6;
-const uint kLoss = 7;
-const uint kStatisticsWords = 8;
+const uint kTouched = 5;
+const uint kLoss = 6;
+const uint kStatisticsWords = 7;
+
+// The sort counts references by digit, in one row per block. Sums of rows follow the rows.
+const uint kDigits = 256;
+const uint kMostBlocks = 512;
+const uint kBlocksASum = 16;
+const uint kSumsAPass = kMostBlocks / kBlocksASum;
+const uint kMostPasses = 4;
 
 // Bits of pack_network's argument.
 const uint kPackBackward = 1;

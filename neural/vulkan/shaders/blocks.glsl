@@ -10,6 +10,7 @@ layout(local_size_x = kThreads) in;
 
 layout(buffer_reference, std430, buffer_reference_align = 4) buffer Floats { float at[]; };
 layout(buffer_reference, std430, buffer_reference_align = 4) buffer Words { uint at[]; };
+layout(buffer_reference, std430, buffer_reference_align = 8) buffer Pairs { uvec2 at[]; };
 layout(buffer_reference, std430, buffer_reference_align = 16) buffer Vectors { vec4 at[]; };
 // Only existing parts are accessed; an array without a length would need a descriptor feature.
 layout(buffer_reference, std430, buffer_reference_align = 8) buffer Parts { Words part[65536]; };

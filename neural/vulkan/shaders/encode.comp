@@ -24,7 +24,7 @@ void put(uint row, float value) {
 
 void put_reference(uint slot, uint node, float weight) {
   const uint at = record * (model.level_count * model.nodes_per_level) + slot;
-  batch.keys[0].at[at] = weight != 0.0 ? node : model.node_count;
+  batch.keys.at[at] = weight != 0.0 ? node : model.node_count;
   batch.weights.at[at] = weight;
 }
 

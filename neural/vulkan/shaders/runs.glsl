@@ -1,26 +1,31 @@
 // Sorted references are divided into runs, where the node changes, and into pieces, also at multiples of
-// kPiece. Many threads can then sum a run that many records share. Push::argument is the array that holds the
-// sort's result.
+// kPiece. Many threads can then sum a run that many records share. A run or piece has the number of its first
+// reference. Push::argument is the array with the sorted references.
 
-const uint kEach = 16;
-const uint kBlock = kThreads * kEach;
 const uint kPiece = 64;
 
-uint key_at(uint i) {
-  return batch.keys[argument].at[i];
-}
-
-bool is_reference(uint i) {
-  return i < batch.references && key_at(i) < model.node_count;
+uint node_at(uint i) {
+  return batch.sorted[argument].at[i].x;
 }
 
 bool begins_run(uint i) {
-  return i == 0u || key_at(i - 1u) != key_at(i);
+  if (i >= batch.references || node_at(i) >= model.node_count) return false;
+  return i == 0u || node_at(i - 1u) != node_at(i);
 }
 
-// Number of pieces (lower half of the word) and runs (upper half) that begin at reference i.
-uint beginnings(uint i) {
-  if (!is_reference(i)) return 0u;
-  if (begins_run(i)) return 0x10001u;
-  return i % kPiece == 0u ? 1u : 0u;
+uint next_piece(uint i) {
+  return (i / kPiece + 1u) * kPiece;
+}
+
+// The first reference at or behind `low` to this node or a later one.
+uint first_from(uint low, uint node) {
+  uint high = batch.references;
+  while (low < high) {
+    const uint middle = low + (high - low) / 2u;
+    if (node_at(middle) < node)
+      low = middle + 1u;
+    else
+      high = middle;
+  }
+  return low;
 }

@@ -1,22 +1,17 @@
 #version 460
-// Counts the references of each block by digit, [digit][block].
+// Counts the references of each block by digit, and adds these counts to the sums over blocks.
 
 #include "blocks.glsl"
 #include "sort.glsl"
 
-shared uint digit_counts[kDigits];
-
 void main() {
-  const uint block = flat_group();
-  if (block >= batch.blocks) return;
-  if (gl_LocalInvocationIndex < kDigits) digit_counts[gl_LocalInvocationIndex] = 0u;
+  const uint block = gl_WorkGroupID.x;
+  clear_counts();
+  count_digits(block_begin(block), block_begin(block + 1u), 0u);
   barrier();
-  Words keys = batch.keys[from_array()];
-  for (uint k = 0u; k < kEach; ++k) {
-    const uint i = block * kBlock + k * kThreads + gl_LocalInvocationIndex;
-    if (i < batch.references) atomicAdd(digit_counts[digit_of(keys.at[i])], 1u);
+  for (uint digit = gl_LocalInvocationIndex; digit < kDigits; digit += kThreads) {
+    const uint count = digit_counts[digit];
+    batch.counts.at[block * kDigits + digit] = count;
+    if (count != 0u) atomicAdd(batch.counts.at[sum_row(argument, block) * kDigits + digit], count);
   }
-  barrier();
-  if (gl_LocalInvocationIndex < kDigits)
-    batch.counts.at[gl_LocalInvocationIndex * batch.blocks + block] = digit_counts[gl_LocalInvocationIndex];
 }

@@ -1,10 +1,12 @@
 #version 460
 // Applies Adam to feature vectors and updates their averages, one node per thread: to touched nodes with
-// their own counters, or to every node with the global step count (dense).
+// their own counters, or to every node with the global step count (dense). Push::argument is the array with the
+// sorted references.
 
 #include "blocks.glsl"
 #include "adam.glsl"
 #include "halves.glsl"
+#include "runs.glsl"
 
 layout(constant_id = 0) const uint kFeatures = 1;
 layout(constant_id = 1) const bool kPerTriangle = false;
@@ -16,27 +18,27 @@ layout(constant_id = 5) const bool kAverages = true;
 const float kMaxHalf = 65504.0;
 const uint kNone = 0xffffffffu;
 
+shared uint runs[kThreads];
+shared uint run_count;
+
 float gradient[kFeatures];
 float changed[kFeatures];
 float average[kFeatures];
 
 uint run_of(uint node) {
-  uint low = 0u, high = batch.statistics.at[kTouched];
-  while (low < high) {
-    const uint middle = (low + high) / 2u;
-    if (batch.nodes.at[middle] < node)
-      low = middle + 1u;
-    else
-      high = middle;
-  }
-  return low < batch.statistics.at[kTouched] && batch.nodes.at[low] == node ? low : kNone;
+  const uint run = first_from(0u, node);
+  return run < batch.references && node_at(run) == node ? run : kNone;
 }
 
-void sum_gradient(uint run) {
+// The first reference behind the run, or behind its only piece.
+uint end_of(uint run, uint node) {
+  const uint next = next_piece(run);
+  return next < batch.references && node_at(next) == node ? first_from(next, node + 1u) : next;
+}
+
+void sum_gradient(uint run, uint end) {
   for (uint f = 0u; f < kFeatures; ++f) gradient[f] = 0.0;
-  if (run == kNone) return;
-  const uint end = batch.node_pieces.at[run + 1u];
-  for (uint piece = batch.node_pieces.at[run]; piece < end; ++piece)
+  for (uint piece = run; piece < end; piece = next_piece(piece))
     for (uint f = 0u; f < kFeatures; ++f) gradient[f] += batch.piece_sums.at[piece * kFeatures + f];
   const float scale = gradient_scale();
   for (uint f = 0u; f < kFeatures; ++f) gradient[f] *= scale;
@@ -48,9 +50,9 @@ bool usable() {
   return true;
 }
 
-uint triangle_step(uint run) {
+uint triangle_step(uint run, uint end) {
   uint greatest = 0u;
-  for (uint piece = batch.node_pieces.at[run]; piece < batch.node_pieces.at[run + 1u]; ++piece)
+  for (uint piece = run; piece < end; piece = next_piece(piece))
     greatest = max(greatest, batch.piece_steps.at[piece]);
   return greatest;
 }
@@ -120,7 +122,8 @@ void update(uint node, AdamStep adam) {
 }
 
 void update_dense(uint node) {
-  sum_gradient(run_of(node));
+  const uint run = run_of(node);
+  sum_gradient(run, run == kNone ? run : end_of(run, node));
   if (usable())
     update(node, adam_step_of_network());
   else
@@ -128,8 +131,8 @@ void update_dense(uint node) {
 }
 
 void update_touched(uint run) {
-  const uint node = batch.nodes.at[run];
-  sum_gradient(run);
+  const uint node = node_at(run), end = end_of(run, node);
+  sum_gradient(run, end);
   if (!usable()) {
     atomicAdd(batch.statistics.at[kSkipped], 1u);
     return;
@@ -138,21 +141,30 @@ void update_touched(uint run) {
   const uint at = place_in_part(model.node_steps, node);
   uint t = steps.at[at];
   if (kPerTriangle)
-    t = triangle_step(run);
+    t = triangle_step(run, end);
   else if (t != 0xffffffffu)
     ++t;
   steps.at[at] = t;
   update(node, adam_step(t));
 }
 
+// Updates the nodes of the runs that begin in a window of kThreads references. The runs are listed first, so
+// that they fill few warps. Their order in the list has no effect.
+void update_window(uint first) {
+  if (gl_LocalInvocationIndex == 0u) run_count = 0u;
+  barrier();
+  const uint i = first + gl_LocalInvocationIndex;
+  if (begins_run(i)) runs[atomicAdd(run_count, 1u)] = i;
+  barrier();
+  if (gl_LocalInvocationIndex < run_count) update_touched(runs[gl_LocalInvocationIndex]);
+  barrier();
+}
+
 void main() {
   if (batch.statistics.at[kAccepted] == 0u) return;
-  const uint count = kDense ? model.node_count : batch.statistics.at[kTouched];
   const uint threads = gl_NumWorkGroups.x * gl_NumWorkGroups.y * kThreads;
-  for (uint i = flat_thread(); i < count; i += threads) {
-    if (kDense)
-      update_dense(i);
-    else
-      update_touched(i);
-  }
+  if (kDense)
+    for (uint node = flat_thread(); node < model.node_count; node += threads) update_dense(node);
+  else
+    for (uint first = flat_group() * kThreads; first < batch.references; first += threads) update_window(first);
 }

@@ -74,7 +74,7 @@ class Bench {
     block.inputs = inputs.address();
     block.status = status.address();
     block.record_triangles = triangles_.address();
-    block.keys[0] = keys.address();
+    block.keys = keys.address();
     block.weights = weights.address();
     block.statistics = statistics.address();
     block.size = block.capacity = static_cast<std::uint32_t>(batch.size());

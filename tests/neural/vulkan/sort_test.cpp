@@ -1,4 +1,4 @@
-// The sort of references by node and its split into runs and pieces, against the standard library.
+// The sort of references by node against the standard library, and the sums over its runs.
 
 #include <fmt/format.h>
 
@@ -7,7 +7,6 @@
 
 #include "neural/vulkan/machine.h"
 #include "neural/vulkan/sort_commands.h"
-#include "neural/vulkan/step_scratch.h"
 #include "neural/vulkan/submission.h"
 #include "neural/vulkan/transfer.h"
 #include "tests/neural/vulkan/device.h"
@@ -23,112 +22,134 @@ using Words = std::vector<std::uint32_t>;
 
 class VulkanSort : public OnVulkan {};
 
-struct Sorted {
-  Words keys, values, piece_starts, nodes, node_pieces;
+constexpr std::uint32_t kPiece = 64;
+
+struct Reference {
+  std::uint32_t node = 0, number = 0;
+  friend bool operator==(const Reference&, const Reference&) = default;
 };
 
-constexpr std::uint32_t kPiece = 64;
+struct Sorted {
+  std::vector<Reference> references;
+  std::vector<float> sums;  ///< of the weights of each piece, at its first reference
+  std::uint32_t runs = 0;
+};
+
+/// Weights are small whole numbers, so that their sums are exact.
+float weight_of(std::uint32_t number) {
+  return static_cast<float>(number % 1000 + 1);
+}
 
 Sorted expected_of(const Words& keys, std::uint32_t nodes) {
   Sorted s;
-  s.values.resize(keys.size());
-  std::iota(s.values.begin(), s.values.end(), 0u);
-  std::ranges::stable_sort(s.values, {}, [&](std::uint32_t i) { return keys[i]; });
-  for (const std::uint32_t i : s.values) s.keys.push_back(keys[i]);
-  std::uint32_t end = 0;
-  for (std::uint32_t i = 0; i < s.keys.size() && s.keys[i] < nodes; end = ++i) {
-    const bool run = i == 0 || s.keys[i] != s.keys[i - 1];
-    if (run) {
-      s.nodes.push_back(s.keys[i]);
-      s.node_pieces.push_back(static_cast<std::uint32_t>(s.piece_starts.size()));
-    }
-    if (run || i % kPiece == 0) s.piece_starts.push_back(i);
+  for (std::uint32_t i = 0; i < keys.size(); ++i) s.references.push_back({keys[i], i});
+  std::ranges::stable_sort(s.references, {}, &Reference::node);
+  s.sums.resize(keys.size());
+  std::size_t piece = 0;
+  for (std::size_t i = 0; i < keys.size() && s.references[i].node < nodes; ++i) {
+    const bool run = i == 0 || s.references[i].node != s.references[i - 1].node;
+    if (run) ++s.runs;
+    if (run || i % kPiece == 0) piece = i;
+    s.sums[piece] += weight_of(s.references[i].number);
   }
-  s.node_pieces.push_back(static_cast<std::uint32_t>(s.piece_starts.size()));
-  s.piece_starts.push_back(end);
   return s;
 }
 
+/// Sorts and sums on the device. A record has one reference with one feature, and gradient 1.
 Sorted sort_on_device(const Words& keys, std::uint32_t nodes) {
   Machine& machine = *test_machine();
   const Device& device = machine.device();
   Transfer transfer(device);
+  const auto count = static_cast<std::uint32_t>(keys.size());
   const auto make = [&](std::size_t words) { return Buffer(device, 4 * words, BufferUse::device); };
-  const auto references = static_cast<std::uint32_t>(keys.size());
-  const std::uint32_t blocks = (references + kSortBlock - 1) / kSortBlock;
-  const Buffer key_arrays[2] = {make(references), make(references)};
-  const Buffer value_arrays[2] = {make(references), make(references)};
-  const Buffer counts = make(16 * blocks), piece_starts = make(references + 1), node_list = make(references),
-               node_pieces = make(references + 1), statistics = make(glsl::kStatisticsWords);
+  const Buffer key_array = make(count), sorted[2] = {make(2 * count), make(2 * count)}, weights = make(count),
+               gradients = make(count), counts = make(kSortCountWords), sums = make(count),
+               statistics = make(glsl::kStatisticsWords);
   ModelBlock model;
   model.node_count = nodes;
+  model.level_count = model.nodes_per_level = model.feature_inputs = 1;
   BatchBlock batch;
-  for (std::size_t i = 0; i < 2; ++i) {
-    batch.keys[i] = key_arrays[i].address();
-    batch.values[i] = value_arrays[i].address();
-  }
+  batch.keys = key_array.address();
+  for (std::size_t i = 0; i < 2; ++i) batch.sorted[i] = sorted[i].address();
+  batch.weights = weights.address();
+  batch.feature_gradients = gradients.address();
   batch.counts = counts.address();
-  batch.piece_starts = piece_starts.address();
-  batch.nodes = node_list.address();
-  batch.node_pieces = node_pieces.address();
+  batch.piece_sums = sums.address();
   batch.statistics = statistics.address();
-  batch.references = references;
-  batch.blocks = blocks;
-  const Buffer model_block(device, sizeof(model), BufferUse::device),
-      batch_block(device, sizeof(batch), BufferUse::device);
-  transfer.write(model_block, std::as_bytes(std::span(&model, 1)));
-  transfer.write(batch_block, std::as_bytes(std::span(&batch, 1)));
-  transfer.write(key_arrays[0], std::as_bytes(std::span(keys)));
+  batch.references = count;
+  const Buffer model_block = make(sizeof(model) / 4), batch_block = make(sizeof(batch) / 4);
+  const auto put = [&](const Buffer& to, const auto& values) {
+    transfer.write(to, std::as_bytes(std::span(values)));
+  };
+  put(model_block, std::span(&model, 1));
+  put(batch_block, std::span(&batch, 1));
+  put(key_array, keys);
+  std::vector<float> floats(count, 1.0f);
+  put(gradients, floats);
+  for (std::uint32_t i = 0; i < count; ++i) floats[i] = weight_of(i);
+  put(weights, floats);
+  transfer.fill(counts, ~0u);
+  transfer.fill(sums, 0);
+  transfer.fill(statistics, 0);
 
   const Submission submission(device);
   Commands commands(submission.commands.front(), machine, model_block.address(), batch_block.address());
-  const std::uint32_t sorted = record_sort(nodes, blocks, commands);
-  record_runs(sorted, blocks, commands);
+  const SortPlan plan = plan_sort(nodes, count);
+  record_sort_clear(plan, commands);
+  commands.barrier();
+  record_sort_start(plan, commands);
+  commands.barrier();
+  record_sort_rest(plan, commands);
+  commands.dispatch(Shader::sum_pieces, Words{1, 0}, std::min<std::uint64_t>(groups_for(count), 100),
+                    plan.result());
   commands.submit(submission.fence);
   wait_for(device, submission.fence);
 
-  const auto get = [&](const Buffer& from, std::size_t words) {
-    Words result(words);
-    transfer.read(from, std::as_writable_bytes(std::span(result)));
-    return result;
-  };
-  const Words counters = get(statistics, glsl::kStatisticsWords);
-  return {get(key_arrays[sorted], references), get(value_arrays[sorted], references),
-          get(piece_starts, counters[glsl::kPieces] + 1), get(node_list, counters[glsl::kTouched]),
-          get(node_pieces, counters[glsl::kTouched] + 1)};
+  Sorted result{std::vector<Reference>(count), std::vector<float>(count)};
+  transfer.read(sorted[plan.result()], std::as_writable_bytes(std::span(result.references)));
+  transfer.read(sums, std::as_writable_bytes(std::span(result.sums)));
+  Words counters(glsl::kStatisticsWords);
+  transfer.read(statistics, std::as_writable_bytes(std::span(counters)));
+  result.runs = counters[glsl::kTouched];
+  return result;
 }
 
 void expect_sorted(const Words& keys, std::uint32_t nodes) {
   SCOPED_TRACE(fmt::format("{} references to {} nodes", keys.size(), nodes));
   const Sorted expected = expected_of(keys, nodes), got = sort_on_device(keys, nodes);
-  EXPECT_EQ(got.keys, expected.keys);
-  EXPECT_EQ(got.values, expected.values);
-  EXPECT_EQ(got.nodes, expected.nodes);
-  if (expected.nodes.empty()) return;  // an empty list has no end
-  EXPECT_EQ(got.node_pieces, expected.node_pieces);
-  EXPECT_EQ(got.piece_starts, expected.piece_starts);
+  EXPECT_TRUE(got.references == expected.references);
+  EXPECT_EQ(got.sums, expected.sums);
+  EXPECT_EQ(got.runs, expected.runs);
+}
+
+/// Keys up to `nodes`, which is no node.
+Words random_keys(std::size_t references, std::uint32_t nodes) {
+  neural::testing::Random random{references + nodes};
+  Words keys(references);
+  for (std::uint32_t& key : keys) key = random.below(nodes + 1);
+  return keys;
 }
 
 TEST_F(VulkanSort, IsStableForManySizesAndNodes) {
-  neural::testing::Random random{1};
-  for (const std::uint32_t nodes : {1u, 15u, 16u, 300u, 70000u, 20000000u})
-    for (const std::size_t references : {1u, 2u, 64u, 127u, 2047u, 2048u, 2049u, 10000u}) {
-      Words keys(references);
-      for (std::uint32_t& key : keys) key = random.below(nodes + 1);  // the key `nodes` is no node
-      expect_sorted(keys, nodes);
-    }
+  for (const std::uint32_t nodes : {1u, 2u, 255u, 256u, 257u, 65535u, 65536u, (1u << 20) + 3, 0xfffffffeu})
+    for (const std::size_t references : {1u, 2u, 127u, 129u, 511u, 513u, 10000u, 16384u, 16385u, 40001u})
+      expect_sorted(random_keys(references, nodes), nodes);
 }
 
-TEST_F(VulkanSort, KeepsTheOrderWhereAllReferencesShareANode) {
-  expect_sorted(Words(5000, 3), 10);
-  expect_sorted(Words(5000, 10), 10);
+TEST_F(VulkanSort, KeepsTheOrderOfEqualAndOfOrderedReferences) {
+  for (const std::size_t references : {5000u, 70000u}) {
+    expect_sorted(Words(references, 3), 10);
+    expect_sorted(Words(references, 10), 10);
+    Words keys = random_keys(references, 3000);
+    std::ranges::sort(keys);
+    expect_sorted(keys, 3000);
+    std::ranges::reverse(keys);
+    expect_sorted(keys, 3000);
+  }
 }
 
-TEST_F(VulkanSort, SortsManyBlocks) {
-  neural::testing::Random random{2};
-  Words keys(300000);
-  for (std::uint32_t& key : keys) key = random.below(5000);
-  expect_sorted(keys, 4000 + 1000);
+TEST_F(VulkanSort, GivesAWorkgroupSeveralChunks) {
+  expect_sorted(random_keys(1000003, 5000), 5000);
 }
 
 }  // namespace
