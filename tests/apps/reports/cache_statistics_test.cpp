@@ -100,7 +100,7 @@ TEST(CacheStatistics, TellTheDeviceThatWasChosen) {
   settings.render.integrator = Integrator::nrc;
   settings.render.cache.choose_device = true;
   RunReport report;
-  CacheStatistics& s = report.statistics.cache = some_statistics();
+  renderer::CacheStatistics& s = report.statistics.cache = some_statistics();
   EXPECT_EQ(json::parse(stats_json(settings, report))["options"]["device"], "auto");
   s.device = "vulkan:H100";
   s.trial = {"H100", 0.002, 0.0005};
