@@ -40,23 +40,21 @@ RenderSettings settle(FlagValues& flags, bool named = false) {
     dropped = false;
     settings = parse_render_arguments(kNoScene, words_of(flags));
     const renderer::RenderOptions& o = settings.render;
-    // Axes do not choose: they compare integrators with and without a cache.
-    if (o.choose_integrator && !named) {
-      set_flag(flags, "--integrator", renderer::enum_name(o.integrator));
-      dropped = true;
-      continue;
-    }
     const bool has_cache = renderer::uses_cache(o.integrator);
-    // The pictures of a series have the first samples of one render.
-    if (o.sampler == renderer::SamplerKind::screen && !has_cache && !named) {
-      set_flag(flags, "--sampler", "sobol");
+    const auto replace = [&, named](bool chooses, const char* flag, const std::string& value) {
+      if (!chooses || named) return;
+      set_flag(flags, flag, value);
       dropped = true;
-      continue;
-    }
+    };
+    // Axes do not choose: they compare integrators with and without a cache.
+    replace(o.choose_integrator, "--integrator", renderer::enum_name(o.integrator));
+    replace(o.cache.choose_device && has_cache, "--device", o.cache.device);
+    // The pictures of a series have the first samples of one render.
+    replace(o.sampler == renderer::SamplerKind::screen && !has_cache, "--sampler", "sobol");
+    if (dropped) continue;
     for (const std::string& name : options_without_effect(settings)) dropped |= drop_flag(flags, "--" + name);
     if (!has_cache && !named) dropped |= drop_flag(flags, "--spp");
   }
-  settings.render.cache.choose_device = false;  // cells are compared
   if (!settings.exposure) {
     throw BadOption({"exposure", "auto", "differs between pictures", "a number of stops for a sweep"});
   }

@@ -288,7 +288,8 @@ void PreparedPicture::set_camera(const CameraOptions& chosen) {
 
 void PreparedPicture::find_noisy_guides() {
   noisy_guides.reset();
-  if (!denoiser || options.denoise.prefilter != Prefilter::accurate) return;
+  const bool filters = denoiser && options.denoise.prefilter == Prefilter::accurate;
+  if (!filters && !has(options.aovs, Aov::denoising)) return;
   PixelRect r = arena.execute([&] { return renderer::noisy_guides(*world, camera, region, options); });
   noisy_guides = {r.x0 - region.x0, r.y0 - region.y0, r.x1 - region.x0, r.y1 - region.y0};
 }

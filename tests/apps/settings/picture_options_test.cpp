@@ -31,6 +31,7 @@ RenderOptions said() {
   options.checkpoint.file = "c";
   options.cache.cache_in = "in";
   options.cache.cache_out = "out";
+  options.cache.device = "vulkan:9";
   return options;
 }
 
