@@ -1,0 +1,46 @@
+"""Flags of the program from the values of the panel and of the scene."""
+
+import shlex
+
+NOT_GIVEN = ("", 0, 0.0, "NONE", "DEFAULT")
+
+
+class BadFlags(Exception):
+    """The text of further flags cannot be taken; the message is for the user."""
+
+
+def of_panel(values):
+    """Flags of the panel's values, by the names of its properties. A value of 0 or DEFAULT leaves the choice to the preset."""
+    flags = []
+    for name in ("preset", "integrator", "denoiser", "glass_shadows"):
+        value = values.get(name, "DEFAULT")
+        if value not in NOT_GIVEN:
+            flags += ["--" + name.replace("_", "-"), value]
+    for name in ("spp", "time_limit", "max_error", "max_depth", "max_transmission_depth", "clamp", "threads"):
+        if values.get(name):
+            flags += ["--" + name.replace("_", "-"), f"{values[name]:g}" if isinstance(values[name], float) else str(values[name])]
+    if values.get("seed"):
+        flags += ["--seed", str(values["seed"])]
+    if values.get("device", "cpu") not in ("", "cpu"):
+        flags += ["--device", values["device"]]
+    return flags + further(values.get("more", ""))
+
+
+def further(text):
+    """The words of the field for all other flags. Throws BadFlags."""
+    try:
+        words = shlex.split(text)
+    except ValueError as error:
+        raise BadFlags(f"further flags '{text}': {error}; expected words as on a command line") from error
+    for taken in ("-o", "--output", "--size", "--region", "--frames", "--progress"):
+        if any(word == taken or word.startswith(taken + "=") for word in words):
+            raise BadFlags(f"further flags: {taken} is Blender's own; expected other flags of 'gatelight render'")
+    return words
+
+
+def from_cycles(cycles):
+    """Values of the panel for those of Cycles that mean the same. `cycles` has its names. Our depths count events, of which the
+    first is no bounce."""
+    return {"preset": "NONE", "integrator": "path", "spp": cycles["samples"], "time_limit": cycles["time_limit"],
+            "denoiser": "oidn" if cycles["use_denoising"] else "none", "max_depth": cycles["max_bounces"] + 1,
+            "max_transmission_depth": cycles["transmission_bounces"] + 1, "seed": cycles["seed"]}
