@@ -1,0 +1,133 @@
+"""The world as the program's environment, sky and fog."""
+
+import math
+import os
+
+import numpy
+
+from . import exr
+
+ROTATION = -90.0  # between the first meridian of Blender's pictures and the program's
+# Radiance of a white surface below Blender's sky over that below the program's, by the sun's elevation in degrees.
+SKY_SCALES = ((0.0, 2.0), (90.0, 44.0))
+
+
+def flags_of(world, folder, notes):
+    if world is None:
+        return ["--environment", "none"]
+    background = _background(world, notes)
+    if background is None:
+        return ["--environment", _numbers(world.color)]
+    strength, color = _value(background, "Strength", world, notes), background.inputs["Color"]
+    if not color.is_linked:
+        return ["--environment", _numbers([strength * c for c in color.default_value[:3]])] + _fog(world, notes)
+    source = color.links[0].from_node
+    if source.type == "TEX_ENVIRONMENT" and source.image:
+        flags = _picture(source, strength, world, folder, notes)
+    elif source.type == "TEX_SKY":
+        flags = _sky(source, strength, world, notes)
+    else:
+        notes.add(f"world '{world.name}'", f"the node '{source.name}' behind its colour; the world is black")
+        flags = ["--environment", "none"]
+    return flags + _fog(world, notes)
+
+
+def _numbers(values):
+    return ",".join(f"{value:.9g}" for value in values) if max(values) > 0.0 else "none"
+
+
+def _output(world, name):
+    if not world.use_nodes or not world.node_tree:
+        return None
+    output = world.node_tree.get_output_node("CYCLES") or world.node_tree.get_output_node("ALL")
+    return output.inputs[name].links[0].from_node if output and output.inputs[name].is_linked else None
+
+
+def _background(world, notes):
+    """The Background node, or nothing where the world has no nodes."""
+    if not world.use_nodes:
+        return None
+    node = _output(world, "Surface")
+    if node is not None and node.type != "BACKGROUND":
+        notes.add(f"world '{world.name}'", f"the node '{node.name}' at its output; the first Background is taken")
+        node = next((n for n in world.node_tree.nodes if n.type == "BACKGROUND"), None)
+    return node
+
+
+def _value(node, name, world, notes):
+    socket = node.inputs[name]
+    if socket.is_linked:
+        notes.add(f"world '{world.name}'", f"the node behind {name}; its plain value is taken")
+    return socket.default_value
+
+
+def _turn(texture, world, notes):
+    """The rotation about the vertical axis, in degrees."""
+    vector = texture.inputs["Vector"]
+    if not vector.is_linked:
+        return 0.0
+    node = vector.links[0].from_node
+    if node.type == "TEX_COORD":
+        return 0.0
+    if node.type != "MAPPING":
+        notes.add(f"world '{world.name}'", f"the node '{node.name}' behind the picture's vector")
+        return 0.0
+    x, y, z = node.inputs["Rotation"].default_value
+    others = [*node.inputs["Location"].default_value, *(s - 1.0 for s in node.inputs["Scale"].default_value), x, y]
+    if any(abs(value) > 1e-4 for value in others):
+        notes.add(f"world '{world.name}'", "a mapping other than a rotation about z")
+    return math.degrees(z)
+
+
+def _picture(texture, strength, world, folder, notes):
+    image = texture.image
+    if texture.projection != "EQUIRECTANGULAR":
+        notes.add(f"world '{world.name}'", "a mirror ball; it is taken as latitude-longitude")
+    path = os.path.join(folder, "world.exr")
+    width, height = image.size
+    if not width or not height:
+        notes.add(f"world '{world.name}'", f"the picture '{image.name}', which cannot be read; the world is black")
+        return ["--environment", "none"]
+    pixels = numpy.empty(width * height * image.channels, numpy.float32)
+    image.pixels.foreach_get(pixels)
+    pixels = pixels.reshape(height, width, image.channels)[::-1, :, :3]
+    if image.colorspace_settings.name == "sRGB" and not image.is_float:
+        pixels = numpy.where(pixels <= 0.04045, pixels / 12.92, ((pixels + 0.055) / 1.055) ** 2.4)
+    exr.write(path, numpy.broadcast_to(pixels, (height, width, 3)))
+    turn = (ROTATION - _turn(texture, world, notes)) % 360.0
+    return ["--environment", path, "--environment-rotation", f"{turn:.6g}", "--environment-scale", f"{strength:.9g}"]
+
+
+def _sky(sky, strength, world, notes):
+    if sky.sky_type not in ("NISHITA", "SINGLE_SCATTERING", "MULTIPLE_SCATTERING"):
+        elevation, azimuth = math.degrees(math.asin(sky.sun_direction.z)), math.degrees(math.atan2(sky.sun_direction.x, sky.sun_direction.y))
+        size = 0.0
+    else:
+        elevation, azimuth = math.degrees(sky.sun_elevation), math.degrees(sky.sun_rotation)
+        size = math.degrees(sky.sun_size) if sky.sun_disc else 0.0
+        if not sky.sun_disc:
+            notes.add(f"world '{world.name}'", "a sky without its sun; it has a sun")
+    if elevation < 0.0:
+        notes.add(f"world '{world.name}'", "a sun below the horizon; it stands at the horizon")
+    notes.add(f"world '{world.name}'", "Blender's sky; it is the program's clear sky of the same brightness, with other colours")
+    elevation = max(elevation, 0.0)
+    scale = strength * float(numpy.interp(elevation, *zip(*SKY_SCALES)))
+    return ["--sky", f"sun={azimuth % 360.0:.6g},{elevation:.6g} size={max(size, 0.1):.4g} intensity={scale:.6g}".replace(" ", ", ")]
+
+
+def _fog(world, notes):
+    node = _output(world, "Volume")
+    if node is None:
+        return []
+    from . import materials  # noqa: PLC0415  both read nodes
+    medium = materials.medium_of(node, f"world '{world.name}'", notes)
+    if medium is None:
+        return []
+    extinction, albedo, anisotropy = medium
+    density = max(extinction)
+    if density <= 0.0:
+        return []
+    if max(extinction) - min(extinction) > 1e-3 * density:
+        notes.add(f"world '{world.name}'", "fog whose density depends on colour; its mean is taken")
+        density = sum(extinction) / 3.0
+    return ["--fog", f"{density:.9g},{','.join(f'{a:.6g}' for a in albedo)},{min(max(anisotropy, -0.99), 0.99):.4g}"]
