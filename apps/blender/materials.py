@@ -6,8 +6,7 @@ THICK = 0.01  # any thickness: rays measure the body
 # Nodes through which the exporter finds pictures and colours.
 CARRIED = {"TEX_IMAGE", "UVMAP", "MAPPING", "TEX_COORD", "NORMAL_MAP", "SEPARATE_COLOR", "SEPRGB", "COMBINE_COLOR", "VERTEX_COLOR",
            "ATTRIBUTE", "MIX", "MIX_RGB", "MATH", "RGB", "VALUE", "REROUTE", "FRAME", "CLAMP", "VECT_MATH"}
-# Inputs of Principled BSDF that have no place in glTF, with the value that means nothing.
-LOST = {"Diffuse Roughness": 0.0, "Thin Film Thickness": 0.0, "Subsurface Weight": 0.0}
+LOST = ("Diffuse Roughness", "Thin Film Thickness")  # inputs of Principled BSDF that the exporter leaves out
 
 
 class Surface:
@@ -44,23 +43,23 @@ class Surface:
             self._extend("volume", {"thicknessFactor": THICK})
         if value(node, "Subsurface Weight") > 0.0:
             self._subsurface(node)
-        for name, nothing in LOST.items():
-            if name in node.inputs and name != "Subsurface Weight" and (node.inputs[name].is_linked or abs(value(node, name) - nothing) > 1e-4):
+        for name in LOST:
+            if name in node.inputs and (node.inputs[name].is_linked or value(node, name) > 1e-4):
                 self.notes.add(self.what, f"{name} of Principled BSDF")
 
     def _bsdf_diffuse(self, node):
-        self._set(self._colour(node), metallic=0.0, roughness=1.0)
+        self._set(self._color(node), metallic=0.0, roughness=1.0)
         self._extend("specular", {"specularFactor": 0.0})
         if value(node, "Roughness") > 1e-4:
             self.notes.add(self.what, "roughness of Diffuse BSDF")
 
     def _bsdf_glossy(self, node):
-        self._set(self._colour(node), metallic=1.0, roughness=value(node, "Roughness"))
+        self._set(self._color(node), metallic=1.0, roughness=value(node, "Roughness"))
 
     _bsdf_anisotropic = _bsdf_metallic = _bsdf_glossy
 
     def _bsdf_glass(self, node):
-        self._set(self._colour(node), metallic=0.0, roughness=value(node, "Roughness"))
+        self._set(self._color(node), metallic=0.0, roughness=value(node, "Roughness"))
         self._extend("transmission", {"transmissionFactor": 1.0})
         self._extend("ior", {"ior": value(node, "IOR")})
         self._extend("volume", {"thicknessFactor": THICK})
@@ -70,18 +69,18 @@ class Surface:
         self.notes.add(self.what, "refraction without reflection; it is glass")
 
     def _bsdf_translucent(self, node):
-        color = self._colour(node)
+        color = self._color(node)
         self._set((0.0, 0.0, 0.0), metallic=0.0, roughness=1.0)
         self._extend("specular", {"specularFactor": 0.0})
         self._extend("diffuse_transmission", {"diffuseTransmissionFactor": 1.0, "diffuseTransmissionColorFactor": list(color)})
 
     def _bsdf_transparent(self, node):
-        self._clear(self._colour(node))
+        self._clear(self._color(node))
 
     def _emission(self, node):
         self._set((0.0, 0.0, 0.0), metallic=0.0, roughness=1.0)
         self._extend("specular", {"specularFactor": 0.0})
-        radiance = [value(node, "Strength") * c for c in self._colour(node)]
+        radiance = [value(node, "Strength") * c for c in self._color(node)]
         if node.inputs["Strength"].is_linked:
             self.notes.add(self.what, "the node behind Strength")
         strength = max(*radiance, 1e-30)
@@ -94,7 +93,7 @@ class Surface:
 
     # Inside.
     def _subsurface(self, node):
-        color, weight = self._colour(node, "Base Color"), value(node, "Subsurface Weight")
+        color, weight = self._color(node, "Base Color"), value(node, "Subsurface Weight")
         radius = [value(node, "Subsurface Scale") * r for r in value(node, "Subsurface Radius")]
         ior = value(node, "Subsurface IOR") if node.subsurface_method == "RANDOM_WALK_SKIN" else value(node, "IOR")
         paths = media.subsurface_paths(color, radius, ior)
@@ -127,7 +126,7 @@ class Surface:
         self._extend("ior", {"ior": 1.0})
         self._extend("specular", {"specularFactor": 0.0})
 
-    def _colour(self, node, name="Color"):
+    def _color(self, node, name="Color"):
         if name not in node.inputs:
             name = "Base Color"
         if node.inputs[name].is_linked and node.type != "BSDF_PRINCIPLED":
@@ -194,6 +193,17 @@ def medium_of(node, what, notes):
         return [density * c for c in color], [1.0 if c > 0.0 else 0.0 for c in color], value(node, "Anisotropy")
     notes.add(what, f"the node '{node.name}' at its volume")
     return None
+
+
+def add_default(document):
+    """Surfaces without a material are grey and matt in Blender."""
+    bare = [part for mesh in document.json.get("meshes", []) for part in mesh["primitives"] if "material" not in part]
+    if bare:
+        grey = {"name": "none", "doubleSided": True, "pbrMetallicRoughness": {"baseColorFactor": [0.8, 0.8, 0.8, 1.0], "metallicFactor": 0.0}}
+        document.extend(grey, "KHR_materials_specular", {"specularFactor": 0.0})
+        index = document.add("materials", grey)
+        for part in bare:
+            part["material"] = index
 
 
 def patch(document, notes, materials, tag):

@@ -64,6 +64,11 @@ class Run:
             return f"gatelight was ended by signal {-code}: expected it to finish its picture"
         return f"gatelight: {self.error or CODES.get(code, 'failed')} (exit code {code})"
 
+    def take_messages(self):
+        """The warnings since the last call."""
+        taken, self.messages = self.messages, []
+        return taken
+
     def ask_for_snapshot(self):
         if hasattr(signal, "SIGUSR1") and self._child.poll() is None:
             self._child.send_signal(signal.SIGUSR1)

@@ -5,7 +5,7 @@ import os
 
 import numpy
 
-from . import exr
+from . import exr, materials
 
 ROTATION = -90.0  # between the first meridian of Blender's pictures and the program's
 # Radiance of a white surface below Blender's sky over that below the program's, by the sun's elevation in degrees.
@@ -115,11 +115,14 @@ def _sky(sky, strength, world, notes):
     return ["--sky", f"sun={azimuth % 360.0:.6g},{elevation:.6g} size={max(size, 0.1):.4g} intensity={scale:.6g}".replace(" ", ", ")]
 
 
+def has_volume(world):
+    return _output(world, "Volume") is not None
+
+
 def _fog(world, notes):
     node = _output(world, "Volume")
     if node is None:
         return []
-    from . import materials  # noqa: PLC0415  both read nodes
     medium = materials.medium_of(node, f"world '{world.name}'", notes)
     if medium is None:
         return []

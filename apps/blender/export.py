@@ -1,0 +1,153 @@
+"""A scene of Blender as a glTF file and flags of the program."""
+
+import contextlib
+import dataclasses
+import os
+
+import bpy
+from mathutils import Vector
+
+from . import animation, camera, exporter_hooks, gltf_document, lights, materials, passes, world
+
+SOLID = {"MESH", "CURVE", "SURFACE", "META", "FONT"}
+SILENT = {"EMPTY", "CAMERA", "LIGHT", "ARMATURE", "LATTICE", "SPEAKER", "LIGHT_PROBE"}  # nothing of them is lost
+
+
+class Unusable(Exception):
+    """The scene cannot be rendered; the message is for the user."""
+
+
+@dataclasses.dataclass
+class Exported:
+    path: str
+    flags: list
+    holdouts: list  # names of nodes that are cut out
+    transparent: bool
+
+
+def export(scene, depsgraph, folder, notes, animated):
+    """Writes the scene of a render's depsgraph into the folder. With `animated`, the file has the frames of the scene."""
+    view = scene.camera
+    if view is None:
+        raise Unusable(f"scene '{scene.name}' has no camera: expected one to render from")
+    if view.type != "CAMERA":
+        raise Unusable(f"'{view.name}' is no camera: expected one to render from")
+    path = os.path.join(folder, "scene.gltf")
+    with render_levels(scene), exporter_hooks.Tagging():
+        _call_exporter(scene, depsgraph.view_layer_eval, path, animated)
+    document = gltf_document.Document(path)
+    shown = {instance.object.original.name_full for instance in depsgraph.object_instances}
+    nodes = document.tagged("nodes", exporter_hooks.OBJECT)
+    _hide(document, nodes, shown)
+    materials.add_default(document)
+    materials.patch(document, notes, {m.name_full: m for m in bpy.data.materials}, exporter_hooks.MATERIAL)
+    flags = _add_view_and_lights(document, nodes, scene, depsgraph, folder, notes, animated, shown)
+    flags += world.flags_of(scene.world, folder, notes)
+    flags += ["--backfaces", "show", "--allow-external"]
+    if scene.render.film_transparent:
+        flags += ["--background", "transparent"]
+    holdouts = _objects(nodes, shown, notes, flags, depsgraph)
+    flags += passes.flags(depsgraph.view_layer, holdouts)
+    passes.complain(depsgraph.view_layer, notes)
+    document.save()
+    return Exported(path, flags, holdouts, scene.render.film_transparent or bool(holdouts))
+
+
+def _call_exporter(scene, view_layer, path, animated):
+    wanted = {"filepath": path, "export_format": "GLTF_SEPARATE", "use_active_scene": True, "use_renderable": True,
+              "export_cameras": True, "export_lights": True, "export_apply": True, "export_yup": True, "export_extras": False,
+              "export_gn_mesh": True, "export_current_frame": True, "export_animations": animated, "export_frame_range": True,
+              "export_animation_mode": "SCENE", "export_force_sampling": True, "export_anim_scene_split_object": False,
+              "export_optimize_animation_size": True, "export_image_format": "AUTO", "export_keep_originals": False}
+    known = bpy.ops.export_scene.gltf.get_rna_type().properties.keys()
+    override = {"scene": scene} if bpy.context.scene != scene else {}
+    try:
+        with bpy.context.temp_override(**override):
+            bpy.ops.export_scene.gltf(**{name: value for name, value in wanted.items() if name in known})
+    except (RuntimeError, AttributeError) as error:
+        last = str(error).strip().splitlines()[-1]
+        raise Unusable(f"Blender's glTF exporter: {last}; expected the add-on 'glTF 2.0 format' to be enabled") from error
+    if not os.path.exists(path):
+        raise Unusable("Blender's glTF exporter wrote no file: expected the reason in the console")
+
+
+@contextlib.contextmanager
+def render_levels(scene):
+    """The exporter sees the viewport's modifiers; for its time they are those of the render."""
+    changed = []
+
+    def change(owner, name, value):
+        before = getattr(owner, name)
+        if before != value:
+            changed.append((owner, name, before))
+            setattr(owner, name, value)
+
+    try:
+        for thing in scene.objects:
+            if thing.library is not None:
+                continue
+            for modifier in thing.modifiers:
+                change(modifier, "show_viewport", modifier.show_render)
+                if modifier.type in ("SUBSURF", "MULTIRES"):
+                    change(modifier, "levels", modifier.render_levels)
+        yield
+    finally:
+        for owner, name, before in reversed(changed):
+            setattr(owner, name, before)
+
+
+def _hide(document, nodes, shown):
+    """Objects that the render does not show lose their meshes; their children stay."""
+    for node, name in nodes:
+        if name not in shown:
+            node.pop("mesh", None)
+    document.drop_lights()
+
+
+def _radius(depsgraph):
+    """Half of the largest extent of what is rendered, in metres."""
+    corners = [instance.matrix_world @ Vector(corner) for instance in depsgraph.object_instances
+               if instance.object.type in SOLID for corner in instance.object.bound_box]
+    if not corners:
+        return 1.0
+    return max(0.5 * max(max(c[i] for c in corners) - min(c[i] for c in corners) for i in range(3)), 1e-3)
+
+
+def _add_view_and_lights(document, nodes, scene, depsgraph, folder, notes, animated, shown):
+    view = scene.camera
+    node = next((node for node, name in nodes if name == view.name_full), None)
+    if node is None:
+        raise Unusable(f"camera '{view.name}' is not part of the view layer: expected one that is rendered")
+    flags = camera.add(document, node, view, scene.render, notes)
+    made = lights.Lights(document, folder, notes, lambda thing: lights.in_view(scene, view, thing), _radius(depsgraph), animated)
+    foggy = scene.world is not None and world.has_volume(scene.world)
+    for node, name in nodes:
+        thing = bpy.data.objects.get(name)
+        if thing is not None and thing.type == "LIGHT" and name in shown:
+            made.add(node, thing, foggy)
+    return flags + made.flags
+
+
+def _objects(nodes, shown, notes, flags, depsgraph):
+    """Catchers of shadows as flags, what the program cannot hide, and the names of the nodes that are cut out."""
+    catchers, holdouts = [], []
+    for node, name in nodes:
+        thing = bpy.data.objects.get(name)
+        if thing is None or name not in shown or thing.type in SILENT:
+            continue
+        if thing.type not in SOLID:
+            notes.add(f"object '{thing.name}'", f"objects of the type {thing.type}")
+        if thing.is_shadow_catcher:
+            catchers.append(node["name"])
+        if thing.is_holdout or thing.evaluated_get(depsgraph).holdout_get(view_layer=depsgraph.view_layer):
+            holdouts.append(node["name"])
+        for ray in ("camera", "diffuse", "glossy", "transmission", "shadow"):
+            if not getattr(thing, f"visible_{ray}", True):
+                notes.add(f"object '{thing.name}'", f"being hidden from {ray} rays")
+        for system in thing.particle_systems:
+            notes.add(f"object '{thing.name}'", "hair" if system.settings.type == "HAIR" else "particles")
+    if catchers:
+        flags += ["--shadow-catcher", catchers[0]]
+        for other in catchers[1:]:
+            notes.add(f"object '{other}'", "a second shadow catcher")
+    return holdouts
