@@ -1,10 +1,19 @@
 """The camera: its view as flags, and as a camera of the glTF file."""
 
+import dataclasses
 import math
 
 from . import units
 
 CAMERA = "gatelight camera"
+
+
+@dataclasses.dataclass
+class Lens:
+    """The picture that a part is rendered of, and the slope of a ray from one pixel to the next; 0: rays are parallel, or depth is the
+    distance anyway."""
+    size: tuple
+    slope: float
 
 
 def picture_size(render):
@@ -22,7 +31,7 @@ def border(render, width, height):
 
 
 def add(document, node, camera, render, notes):
-    """Sets the camera of the document's node. Returns the flags of the view."""
+    """Sets the camera of the document's node. Returns the flags of the view, and its lens."""
     width, height = picture_size(render)
     fit = {"HORIZONTAL": width, "VERTICAL": height}.get(camera.data.sensor_fit, max(width, height))
     size, (x, y) = units.shifted_frame(width, height, camera.data.shift_x, camera.data.shift_y, fit)
@@ -40,7 +49,9 @@ def add(document, node, camera, render, notes):
         kind = getattr(camera.data, "panorama_type", None) or getattr(getattr(camera.data, "cycles", None), "panorama_type", "")
         if kind != "EQUIRECTANGULAR":
             notes.add(f"camera '{camera.name}'", f"a panorama of the kind {kind}; it is latitude-longitude")
-    return flags + _lens(camera, notes)
+    perspective = document.json["cameras"][node["camera"]].get("perspective") if camera.data.type == "PERSP" else None
+    slope = math.tan(0.5 * perspective["yfov"]) / (0.5 * size[1]) if perspective else 0.0
+    return flags + _blur(camera, notes), Lens(size, slope)
 
 
 def _projection(data, width, height, size):
@@ -53,7 +64,7 @@ def _projection(data, width, height, size):
     return {"name": CAMERA, "type": "perspective", "perspective": {"yfov": fov, "aspectRatio": size[0] / size[1], "znear": 1e-3}}
 
 
-def _lens(camera, notes):
+def _blur(camera, notes):
     """Depth of field."""
     lens = camera.data.dof
     if not lens.use_dof:

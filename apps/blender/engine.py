@@ -7,7 +7,7 @@ import time
 
 import bpy
 
-from . import animation, camera, exr, find_program, flags, passes, preferences, report, run, sequence
+from . import animation, exr, find_program, flags, passes, preferences, report, run, sequence
 from .export import Unusable, export
 
 POLL = 0.05  # seconds between two looks at the program
@@ -71,10 +71,10 @@ class GatelightEngine(bpy.types.RenderEngine):
         find_program.check(program)
         chosen = flags.of_panel(preferences.values(scene.gatelight))
         self.update_stats("", "Gatelight: exporting the scene")
+        frames = list(animation.frames(scene)) if whole else [scene.frame_current]
         made = export(scene, depsgraph, folder, notes, animated)
         notes.print()
         command = [program, "render", made.path, *made.flags, *chosen, "--exr", "float", "--progress", "json"]
-        frames = list(animation.frames(scene)) if whole else [scene.frame_current]
         output = os.path.join(folder, "picture.exr")
         if animated:
             output = os.path.join(folder, "picture-{frame}.exr")
@@ -124,6 +124,7 @@ class GatelightEngine(bpy.types.RenderEngine):
         picture = exr.read(path)
         if job.exported.holdouts:
             passes.hold_out(picture, job.exported.holdouts)
+        passes.flatten_depth(picture, job.exported.lens)
         height, width = picture.layers[""].shape[:2]
         result = self.begin_result(0, 0, width, height, layer=layer.name)
         if result is None or not result.layers:

@@ -22,7 +22,7 @@ class Exported:
     path: str
     flags: list
     holdouts: list  # names of nodes that are cut out
-    transparent: bool
+    lens: camera.Lens
 
 
 def export(scene, depsgraph, folder, notes, animated):
@@ -41,7 +41,7 @@ def export(scene, depsgraph, folder, notes, animated):
     _hide(document, nodes, shown)
     materials.add_default(document)
     materials.patch(document, notes, {m.name_full: m for m in bpy.data.materials}, exporter_hooks.MATERIAL)
-    flags = _add_view_and_lights(document, nodes, scene, depsgraph, folder, notes, animated, shown)
+    flags, lens = _add_view_and_lights(document, nodes, scene, depsgraph, folder, notes, animated, shown)
     flags += world.flags_of(scene.world, folder, notes)
     flags += ["--backfaces", "show", "--allow-external"]
     if scene.render.film_transparent:
@@ -50,7 +50,7 @@ def export(scene, depsgraph, folder, notes, animated):
     flags += passes.flags(depsgraph.view_layer, holdouts)
     passes.complain(depsgraph.view_layer, notes)
     document.save()
-    return Exported(path, flags, holdouts, scene.render.film_transparent or bool(holdouts))
+    return Exported(path, flags, holdouts, lens)
 
 
 def _call_exporter(scene, view_layer, path, animated):
@@ -59,6 +59,7 @@ def _call_exporter(scene, view_layer, path, animated):
               "export_gn_mesh": True, "export_current_frame": True, "export_animations": animated, "export_frame_range": True,
               "export_animation_mode": "SCENE", "export_force_sampling": True, "export_anim_scene_split_object": False,
               "export_optimize_animation_size": True, "export_image_format": "AUTO", "export_keep_originals": False}
+    frame = scene.frame_current, scene.frame_subframe  # which the exporter changes where it samples animations
     known = bpy.ops.export_scene.gltf.get_rna_type().properties.keys()
     override = {"scene": scene} if bpy.context.scene != scene else {}
     try:
@@ -67,6 +68,9 @@ def _call_exporter(scene, view_layer, path, animated):
     except (RuntimeError, AttributeError) as error:
         last = str(error).strip().splitlines()[-1]
         raise Unusable(f"Blender's glTF exporter: {last}; expected the add-on 'glTF 2.0 format' to be enabled") from error
+    finally:
+        if (scene.frame_current, scene.frame_subframe) != frame:
+            scene.frame_set(frame[0], subframe=frame[1])
     if not os.path.exists(path):
         raise Unusable("Blender's glTF exporter wrote no file: expected the reason in the console")
 
@@ -118,14 +122,14 @@ def _add_view_and_lights(document, nodes, scene, depsgraph, folder, notes, anima
     node = next((node for node, name in nodes if name == view.name_full), None)
     if node is None:
         raise Unusable(f"camera '{view.name}' is not part of the view layer: expected one that is rendered")
-    flags = camera.add(document, node, view, scene.render, notes)
+    flags, lens = camera.add(document, node, view, scene.render, notes)
     made = lights.Lights(document, folder, notes, lambda thing: lights.in_view(scene, view, thing), _radius(depsgraph), animated)
     foggy = scene.world is not None and world.has_volume(scene.world)
     for node, name in nodes:
         thing = bpy.data.objects.get(name)
         if thing is not None and thing.type == "LIGHT" and name in shown:
             made.add(node, thing, foggy)
-    return flags + made.flags
+    return flags + made.flags, lens
 
 
 def _objects(nodes, shown, notes, flags, depsgraph):

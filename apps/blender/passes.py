@@ -107,6 +107,17 @@ def pixels_of(made, picture):
     return numpy.ascontiguousarray(pixels[::-1, :, :len(made.channels)], numpy.float32)
 
 
+def flatten_depth(picture, lens):
+    """Depth along the view, as Blender has it, instead of the distance from the camera."""
+    layer = picture.layers.get("depth")
+    if layer is None or lens.slope == 0.0:
+        return
+    height, width = layer.shape[:2]
+    x = (picture.corner[0] + numpy.arange(width) + 0.5 - 0.5 * lens.size[0]) * lens.slope
+    y = (picture.corner[1] + numpy.arange(height) + 0.5 - 0.5 * lens.size[1]) * lens.slope
+    picture.layers["depth"] = layer / numpy.sqrt(1.0 + x[None, :, None] ** 2 + y[:, None, None] ** 2)
+
+
 def hold_out(picture, names):
     """Cuts objects out of the picture itself, by their Cryptomatte coverage."""
     manifest = next((text for key, text in picture.attributes.items() if key.endswith("/manifest") and

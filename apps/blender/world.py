@@ -8,8 +8,9 @@ import numpy
 from . import exr, materials
 
 ROTATION = -90.0  # between the first meridian of Blender's pictures and the program's
-# Radiance of a white surface below Blender's sky over that below the program's, by the sun's elevation in degrees.
-SKY_SCALES = ((0.0, 2.0), (90.0, 44.0))
+# Radiance of a horizontal surface below Blender's sky over that below the program's, by the sun's elevation in degrees, measured.
+SKY_SCALES = ((1.0, 42.0), (3.0, 49.3), (6.0, 53.3), (10.0, 50.0), (15.0, 45.3), (25.0, 40.2), (35.0, 38.0), (50.0, 36.5), (70.0, 35.8),
+              (90.0, 35.9))
 
 
 def flags_of(world, folder, notes):

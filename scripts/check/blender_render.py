@@ -38,7 +38,7 @@ def set_up(engine, size, samples):
     scene.render.image_settings.color_depth = "32"
     if engine == "CYCLES":
         cycles = scene.cycles
-        cycles.samples, cycles.use_denoising, cycles.use_adaptive_sampling, cycles.sample_clamp_indirect = samples, False, False, 0.0
+        cycles.samples, cycles.use_denoising, cycles.use_adaptive_sampling, cycles.sample_clamp_indirect, cycles.blur_glossy = samples, False, False, 0.0, 0.0
         cycles.max_bounces = cycles.diffuse_bounces = cycles.glossy_bounces = cycles.transmission_bounces = cycles.volume_bounces = 64
     else:
         settings = scene.gatelight
@@ -61,6 +61,11 @@ def main():
     sys.path.insert(0, str(HERE.parents[1] / "apps" / "blender"))
     import exr  # noqa: PLC0415  the extension's own reader
     layers = exr.read(path).layers
+    layers = {key: pixels for key, pixels in layers.items() if ".Crypto" not in key}
+    for kind in ("Dir", "Ind"):  # Cycles divides light by the surface's colour, Gatelight leaves it in
+        for key in [key for key in layers if key.endswith(kind)]:
+            layers[key] = layers[key] * layers.get(key.replace(kind, "Col"), 1.0)
+    layers = {key: pixels for key, pixels in layers.items() if not key.endswith("Col")}
     means = {key.partition(".")[2]: [float(x) for x in numpy.where(pixels < 1e9, pixels, 0.0).mean(axis=(0, 1))]
              for key, pixels in layers.items()}
     print("RESULT " + json.dumps({"means": means, "seconds": seconds}))

@@ -62,7 +62,7 @@ def stage(first=None, second=None):
     """A floor, a box and a ball, and the camera."""
     floor()
     camera()
-    return box(first or material("red", (0.7, 0.2, 0.1)), (-1.1, 0.0, 0.7)), ball(second or material("blue", (0.1, 0.3, 0.7)), (1.1, 0.0, 0.8))
+    return box(first or material("red", (0.7, 0.2, 0.1)), (-1.1, 0.0, 0.72)), ball(second or material("blue", (0.1, 0.3, 0.7)), (1.1, 0.0, 0.8))
 
 
 def camera(**values):
@@ -96,12 +96,12 @@ def world(color=(0.0, 0.0, 0.0), strength=1.0):
 def point_lights():
     stage()
     lamp("POINT", (-2.0, -1.0, 3.0), energy=200.0, shadow_soft_size=0.0, color=(1.0, 0.8, 0.6))
-    lamp("POINT", (2.5, -1.0, 1.0), energy=100.0, shadow_soft_size=0.3)
+    lamp("POINT", (2.5, -1.0, 1.0), energy=100.0, shadow_soft_size=0.3, use_soft_falloff=False)
 
 
 def hidden_point_lights():
     stage()
-    lamp("POINT", (0.0, 0.5, 1.6), hidden=True, energy=200.0, shadow_soft_size=0.2)
+    lamp("POINT", (0.0, 0.5, 1.6), hidden=True, energy=200.0, shadow_soft_size=0.2, use_soft_falloff=False)
 
 
 def spot_lights():
@@ -282,7 +282,7 @@ def moving_ball():
 def passes():
     _plain_stage()
     layer = bpy.context.scene.view_layers[0]
-    for name in ("z", "normal", "position", "diffuse_direct", "diffuse_indirect", "emit", "environment", "cryptomatte_object"):
+    for name in ("z", "normal", "position", "diffuse_direct", "diffuse_indirect", "diffuse_color", "emit", "environment", "cryptomatte_object"):
         setattr(layer, f"use_pass_{name}", True)
 
 
