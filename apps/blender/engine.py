@@ -30,12 +30,13 @@ class GatelightEngine(bpy.types.RenderEngine):
             self._render(depsgraph)
         except (Unusable, find_program.NoProgram, flags.BadFlags, exr.BadPicture, OSError) as error:
             self._fail(str(error), depsgraph.view_layer.name)
+        except KeyboardInterrupt:  # of a Python that runs Blender as a module
+            self._fail("the render was interrupted before its picture had begun", depsgraph.view_layer.name)
 
     def _fail(self, line, layer):
         """One line for the user, and an empty picture, since Blender may be about to save one."""
-        self.report({"ERROR"}, line)
         self.end_result(self.begin_result(0, 0, self.resolution_x, self.resolution_y, layer=layer))
-        self.error_set(line)
+        self.report({"ERROR"}, line)
 
     def _render(self, depsgraph):
         scene = depsgraph.scene.original
@@ -85,15 +86,32 @@ class GatelightEngine(bpy.types.RenderEngine):
 
     def _show(self, job, depsgraph, path):
         """Waits for the picture of a frame, shows what is there meanwhile, and fills the passes at the end."""
-        layer, summary = depsgraph.view_layer, job.notes.summary()
-        begun, wait, shown = time.monotonic(), FIRST_SNAPSHOT, None
-        due = begun + wait
-        frame = depsgraph.scene.frame_current
+        layer, summary, frame = depsgraph.view_layer, job.notes.summary(), depsgraph.scene.frame_current
+        try:
+            self._wait(job, layer, frame, path, summary)
+        except KeyboardInterrupt:
+            job.stop()
+        failure = job.run.failure() if not job.is_finished(frame) else None
+        if failure:
+            raise Unusable(failure)
+        if os.path.exists(path):
+            self._fill(job, layer, path, [passes.COMBINED, *passes.asked(layer), *passes.mask_passes(layer)])
+            os.remove(path)
+        elif not self.test_break():
+            raise Unusable(f"gatelight left no picture of frame {frame}: it was stopped before")
+        for message in job.run.take_messages():
+            print(f"Gatelight: {message}")
+        self.update_stats("", summary)
+
+    def _wait(self, job, layer, frame, path, summary):
+        """Shows the growing picture until it is complete, or until the user has enough of it."""
+        wait, shown = FIRST_SNAPSHOT, None
+        due = time.monotonic() + wait
         while job.is_waiting(frame):
             self._show_progress(job, frame, summary)
             if self.test_break():
                 job.stop()
-                break
+                return
             if time.monotonic() > due:
                 wait = min(2.0 * wait, SLOWEST_SNAPSHOT)
                 due = time.monotonic() + wait
@@ -103,14 +121,6 @@ class GatelightEngine(bpy.types.RenderEngine):
                 shown = written
                 self._fill(job, layer, path, [passes.COMBINED])
             time.sleep(POLL)
-        failure = job.run.failure() if not job.is_finished(frame) else None
-        if failure:
-            raise Unusable(failure)
-        if os.path.exists(path):
-            self._fill(job, layer, path, [passes.COMBINED, *passes.asked(layer), *passes.mask_passes(layer)])
-        for message in job.run.take_messages():
-            print(f"Gatelight: {message}")
-        self.update_stats("", summary)
 
     def _show_progress(self, job, frame, summary):
         event = job.run.progress

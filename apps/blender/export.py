@@ -60,14 +60,16 @@ def _call_exporter(scene, view_layer, path, animated):
               "export_animation_mode": "SCENE", "export_force_sampling": True, "export_anim_scene_split_object": False,
               "export_optimize_animation_size": True, "export_image_format": "AUTO", "export_keep_originals": False}
     frame = scene.frame_current, scene.frame_subframe  # which the exporter changes where it samples animations
+    if not hasattr(bpy.types, "EXPORT_SCENE_OT_gltf"):
+        raise Unusable("Blender's glTF exporter is not there: expected the add-on 'glTF 2.0 format' to be enabled")
     known = bpy.ops.export_scene.gltf.get_rna_type().properties.keys()
     override = {"scene": scene} if bpy.context.scene != scene else {}
     try:
         with bpy.context.temp_override(**override):
             bpy.ops.export_scene.gltf(**{name: value for name, value in wanted.items() if name in known})
-    except (RuntimeError, AttributeError) as error:
-        last = str(error).strip().splitlines()[-1]
-        raise Unusable(f"Blender's glTF exporter: {last}; expected the add-on 'glTF 2.0 format' to be enabled") from error
+    except RuntimeError as error:
+        lines = [line for line in str(error).strip().splitlines() if not line.startswith((" ", "Location:"))]
+        raise Unusable(f"Blender's glTF exporter: {lines[-1]}; expected it to write the scene") from error
     finally:
         if (scene.frame_current, scene.frame_subframe) != frame:
             scene.frame_set(frame[0], subframe=frame[1])

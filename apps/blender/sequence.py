@@ -1,7 +1,6 @@
 """Runs of the program, and the one that lives from frame to frame of an animation."""
 
 import atexit
-import os
 import shutil
 
 import bpy
@@ -35,12 +34,6 @@ class Job:
     def close(self):
         self.run.stop(seconds=2.0)
         shutil.rmtree(self.folder, ignore_errors=True)
-
-    def drop(self, frame):
-        """Forgets the picture of a frame that Blender has."""
-        path = self.picture(frame)
-        if os.path.exists(path):
-            os.remove(path)
 
 
 def current(scene, layer):

@@ -113,7 +113,7 @@ def _sky(sky, strength, world, notes):
     notes.add(f"world '{world.name}'", "Blender's sky; it is the program's clear sky of the same brightness, with other colours")
     elevation = max(elevation, 0.0)
     scale = strength * float(numpy.interp(elevation, *zip(*SKY_SCALES)))
-    return ["--sky", f"sun={azimuth % 360.0:.6g},{elevation:.6g} size={max(size, 0.1):.4g} intensity={scale:.6g}".replace(" ", ", ")]
+    return ["--sky", f"sun={azimuth % 360.0:.6g},{elevation:.6g}, size={max(size, 0.1):.4g}, intensity={scale:.6g}, ground=0"]
 
 
 def has_volume(world):

@@ -1,0 +1,52 @@
+"""A session of Blender as a Python module, with the extension of apps/blender."""
+
+import os
+import pathlib
+import shutil
+import sys
+import tempfile
+
+import bpy
+
+HERE = pathlib.Path(__file__).resolve().parent
+_folders = []
+EXTENSION = "gatelight_extension"
+
+
+def enable(program):
+    """The extension under a name that no other module has."""
+    folder = tempfile.mkdtemp(prefix="modules-")
+    os.symlink(HERE.parents[1] / "apps" / "blender", os.path.join(folder, EXTENSION))
+    _folders.append(folder)
+    sys.path.insert(0, folder)
+    bpy.ops.preferences.addon_enable(module=EXTENSION)
+    bpy.context.preferences.addons[EXTENSION].preferences.program = program
+
+
+def set_up(engine, size, samples):
+    scene = bpy.context.scene
+    scene.render.engine = engine
+    scene.render.resolution_x = scene.render.resolution_y = size
+    scene.render.image_settings.file_format = "OPEN_EXR_MULTILAYER"
+    scene.render.image_settings.color_depth = "32"
+    if engine == "CYCLES":
+        cycles = scene.cycles
+        cycles.samples, cycles.use_denoising, cycles.use_adaptive_sampling, cycles.sample_clamp_indirect, cycles.blur_glossy = samples, False, False, 0.0, 0.0
+        cycles.max_bounces = cycles.diffuse_bounces = cycles.glossy_bounces = cycles.transmission_bounces = cycles.volume_bounces = 64
+    else:
+        settings = scene.gatelight
+        settings.preset, settings.integrator, settings.denoiser, settings.spp = "NONE", "path", "none", samples
+    return scene
+
+
+def start(program):
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    enable(program)
+
+
+def end():
+    """Blender as a module does not end cleanly by itself."""
+    for folder in _folders:
+        shutil.rmtree(folder)
+    sys.stdout.flush()
+    os._exit(0)
