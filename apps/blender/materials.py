@@ -25,11 +25,8 @@ class Surface:
         node = self.surface
         if node is None and self.volume is None:
             self.notes.add(self.what, "a material without a surface; it is as the exporter wrote it")
-        change = getattr(self, "_" + node.type.lower(), None) if node else None
-        if change:
-            change(node)
-        elif node is not None:
-            self.notes.add(self.what, f"the node '{node.name}' at its surface")
+        if node is not None:
+            getattr(self, "_" + node.type.lower(), self._unknown)(node)
         if self.volume is not None:
             self._fill(node)
         self._complain_about_nodes()
@@ -76,6 +73,23 @@ class Surface:
 
     def _bsdf_transparent(self, node):
         self._clear(self._color(node))
+
+    def _mix_shader(self, node):
+        """A surface that is partly transparent."""
+        sides = [node.inputs[index].links[0].from_node if node.inputs[index].is_linked else None for index in (1, 2)]
+        factor = node.inputs[0]
+        clear = next((index for index, side in enumerate(sides) if side is not None and side.type == "BSDF_TRANSPARENT"), None)
+        if clear is None or sides[1 - clear] is None or factor.is_linked:
+            self._unknown(node)
+            return
+        other = sides[1 - clear]
+        getattr(self, "_" + other.type.lower(), self._unknown)(other)
+        color = self.element.setdefault("pbrMetallicRoughness", {}).setdefault("baseColorFactor", [1.0, 1.0, 1.0, 1.0])
+        color[3] = factor.default_value if clear == 0 else 1.0 - factor.default_value
+        self.element["alphaMode"] = "BLEND"
+
+    def _unknown(self, node):
+        self.notes.add(self.what, f"the node '{node.name}' at its surface")
 
     def _emission(self, node):
         self._set((0.0, 0.0, 0.0), metallic=0.0, roughness=1.0)

@@ -1,0 +1,144 @@
+"""The program is found, checked, started, watched and stopped; flags and texts are its own."""
+
+import os
+import pathlib
+import signal
+import subprocess
+import tempfile
+import time
+import tomllib
+import unittest
+
+from support import DATA, PROGRAM, SOURCE, main, module
+
+find_program, flags, option_texts, report, run = (module(name) for name in ("find_program", "flags", "option_texts", "report", "run"))
+
+
+class Finding(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory(suffix=" mit Ümlaut")
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def program(self, answer):
+        path = self.folder / "bin" / find_program.NAME
+        path.parent.mkdir(exist_ok=True)
+        path.write_text(f"#!/bin/sh\necho '{answer}'\n")
+        path.chmod(0o755)
+        return str(path)
+
+    def test_a_folder_or_a_file_is_named(self):
+        path = self.program("")
+        self.assertEqual((find_program.find(str(self.folder)), find_program.find(path)), (path, path))
+
+    def refusal(self, path):
+        with self.assertRaises(find_program.NoProgram) as caught:
+            find_program.check(path)
+        self.assertEqual(len(str(caught.exception).splitlines()), 1)
+        return str(caught.exception)
+
+    def test_others_are_refused(self):
+        self.assertIn("0.9.3", self.refusal(self.program("gatelight 0.9.3")))
+        self.assertIn("not Gatelight", self.refusal(self.program("something")))
+        with self.assertRaises(find_program.NoProgram):
+            find_program.find(str(self.folder / "nothing"))
+
+    def test_the_program_itself_is_taken(self):
+        self.assertIn("--spp", find_program.check(PROGRAM))
+
+
+class Manifest(unittest.TestCase):
+    def test_the_version_is_the_programs(self):
+        with open(SOURCE / "apps/blender/blender_manifest.toml", "rb") as file:
+            manifest = tomllib.load(file)
+        said = subprocess.run([PROGRAM, "--version"], capture_output=True, text=True, check=True).stdout
+        self.assertEqual(tuple(map(int, manifest["version"].split("."))), find_program.version_of(said))
+
+
+class Texts(unittest.TestCase):
+    def test_every_flag_has_its_own_text(self):
+        texts = option_texts.parse(find_program.check(PROGRAM))
+        self.assertGreater(len(texts), 80)
+        for flag in ("preset", "spp", "time-limit", "max-error", "denoiser", "integrator", "max-depth", "max-transmission-depth", "clamp",
+                     "glass-shadows", "device", "threads", "seed"):
+            self.assertGreater(len(texts[flag]), 10, flag)
+        self.assertIn("ambient occlusion (ao)", texts["integrator"])
+
+
+class Flags(unittest.TestCase):
+    def test_zero_leaves_the_choice_to_the_preset(self):
+        self.assertEqual(flags.of_panel({"preset": "standard", "spp": 0, "denoiser": "DEFAULT", "device": "cpu", "more": ""}), ["--preset", "standard"])
+
+    def test_values_and_further_words(self):
+        given = flags.of_panel({"preset": "NONE", "spp": 8, "time_limit": 2.5, "more": "--fog '0.1, 1,1,1'"})
+        self.assertEqual(given, ["--spp", "8", "--time-limit", "2.5", "--fog", "0.1, 1,1,1"])
+        for bad in ("--size 4x4", "-o x.png", "'open"):
+            with self.assertRaises(flags.BadFlags):
+                flags.further(bad)
+
+    def test_bounces_are_events_less_one(self):
+        taken = flags.from_cycles(dict(samples=7, use_denoising=True, max_bounces=0, transmission_bounces=2, time_limit=0.0, seed=3))
+        self.assertEqual((taken["spp"], taken["max_depth"], taken["max_transmission_depth"], taken["denoiser"]), (7, 1, 3, "oidn"))
+
+
+class Running(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.picture = os.path.join(folder.name, "a.exr")
+
+    def start(self, *more):
+        return run.Run([PROGRAM, "render", str(DATA / "cornell-box.glb"), "-o", self.picture, "--size", "32x32", "--progress", "json", *more])
+
+    def wait(self, started, until):
+        ends = time.monotonic() + 60.0
+        while started.update() and not until():
+            self.assertLess(time.monotonic(), ends)
+            time.sleep(0.02)
+
+    def test_a_picture(self):
+        started = self.start("--spp", "4")
+        self.wait(started, lambda: False)
+        self.assertIsNone(started.failure())
+        self.assertEqual(started.progress["spp_done"], 4)
+        self.assertEqual(run.line_of(started.progress), "Rendering 4 of 4 samples")
+
+    def test_a_snapshot_and_a_stop_leave_pictures(self):
+        started = self.start("--spp", "1000000")
+        self.wait(started, lambda: started.progress.get("spp_done", 0) > 0)
+        started.ask_for_snapshot()
+        self.wait(started, lambda: run.when_written(self.picture))
+        os.remove(self.picture)
+        started.stop()
+        self.assertIsNone(started.failure())
+        self.assertIsNotNone(run.when_written(self.picture))
+
+    def test_failures_are_one_line(self):
+        wrong = self.start("--no-such-flag")
+        self.wait(wrong, lambda: False)
+        self.assertIn("--no-such-flag", wrong.failure())
+        killed = self.start("--spp", "1000000")
+        self.wait(killed, lambda: killed.progress)
+        killed._child.send_signal(signal.SIGKILL)
+        self.wait(killed, lambda: False)
+        self.assertIn("signal 9", killed.failure())
+
+    def test_frames_are_counted(self):
+        self.picture = self.picture.replace("a.exr", "f-{frame}.exr")
+        started = self.start("--spp", "1", "--turntable", "3")
+        self.wait(started, lambda: False)
+        self.assertEqual(len(started.frames_done), 3)
+
+
+class Notes(unittest.TestCase):
+    def test_each_is_named_once(self):
+        notes = report.Notes()
+        for _ in range(2):
+            notes.add("object 'a'", "hair")
+        self.assertEqual(notes.summary(), "Not carried over: object 'a': hair")
+        notes.add("object 'b'", "hair")
+        self.assertIn("1 more", notes.summary())
+
+
+if __name__ == "__main__":
+    main()
