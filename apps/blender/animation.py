@@ -23,12 +23,16 @@ def is_whole(engine, scene):
 
 def obstacle(scene):
     """What of the scene's animation glTF cannot hold, in a few words; None if all can be one file."""
+    if scene.camera is None or scene.camera.type != "CAMERA":
+        return "a scene without a camera"
     if scene.frame_start < 0:
         return "frames below zero"
     if scene.render.frame_map_old != scene.render.frame_map_new:
         return "stretched time"
     if any(marker.camera for marker in scene.timeline_markers):
         return "cameras that change at markers"
+    if scene.camera.data.dof.use_dof and scene.camera.data.dof.focus_object:
+        return "a focus that follows an object"
     for owner in (scene, scene.world, scene.world.node_tree if scene.world else None):
         if owner is not None and _paths(owner):
             return f"the animation of '{owner.name}'"

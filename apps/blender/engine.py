@@ -19,7 +19,7 @@ class GatelightEngine(bpy.types.RenderEngine):
     bl_label = "Gatelight"
     bl_use_preview = False
     bl_use_postprocess = True
-    bl_use_shading_nodes_custom = False
+    bl_use_eevee_viewport = True
 
     def update_render_passes(self, scene, renderlayer):
         for made in [passes.COMBINED, *passes.asked(renderlayer), *passes.mask_passes(renderlayer)]:

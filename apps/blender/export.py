@@ -2,10 +2,11 @@
 
 import contextlib
 import dataclasses
+import math
 import os
 
 import bpy
-from mathutils import Vector
+from mathutils import Matrix, Vector
 
 from . import animation, camera, exporter_hooks, gltf_document, lights, materials, passes, world
 
@@ -37,13 +38,12 @@ def export(scene, depsgraph, folder, notes, animated):
         _call_exporter(scene, depsgraph.view_layer_eval, path, animated)
     document = gltf_document.Document(path)
     shown = {instance.object.original.name_full for instance in depsgraph.object_instances}
-    nodes = document.tagged("nodes", exporter_hooks.OBJECT)
+    nodes = _tagged(document)
     _hide(document, nodes, shown)
     materials.add_default(document)
     materials.patch(document, notes, {m.name_full: m for m in bpy.data.materials}, exporter_hooks.MATERIAL)
     flags, lens = _add_view_and_lights(document, nodes, scene, depsgraph, folder, notes, animated, shown)
     flags += world.flags_of(scene.world, folder, notes)
-    flags += ["--backfaces", "show", "--allow-external"]
     if scene.render.film_transparent:
         flags += ["--background", "transparent"]
     holdouts = _objects(nodes, shown, notes, flags, depsgraph)
@@ -102,10 +102,16 @@ def render_levels(scene):
             setattr(owner, name, before)
 
 
+def _tagged(document):
+    """Pairs of a node and its object in Blender."""
+    objects = {thing.name_full: thing for thing in bpy.data.objects}
+    return [(node, objects[name]) for node, name in document.tagged("nodes", exporter_hooks.OBJECT) if name in objects]
+
+
 def _hide(document, nodes, shown):
     """Objects that the render does not show lose their meshes; their children stay."""
-    for node, name in nodes:
-        if name not in shown:
+    for node, thing in nodes:
+        if thing.name_full not in shown:
             node.pop("mesh", None)
     document.drop_lights()
 
@@ -121,25 +127,29 @@ def _radius(depsgraph):
 
 def _add_view_and_lights(document, nodes, scene, depsgraph, folder, notes, animated, shown):
     view = scene.camera
-    node = next((node for node, name in nodes if name == view.name_full), None)
-    if node is None:
-        raise Unusable(f"camera '{view.name}' is not part of the view layer: expected one that is rendered")
+    node = next((node for node, thing in nodes if thing == view), None) or _own_node(document, view)
     flags, lens = camera.add(document, node, view, scene.render, notes)
-    made = lights.Lights(document, folder, notes, lambda thing: lights.in_view(scene, view, thing), _radius(depsgraph), animated)
+    made = lights.Lights(document, folder, notes, lambda thing: lights.in_view(view, thing), _radius(depsgraph), animated)
     foggy = scene.world is not None and world.has_volume(scene.world)
-    for node, name in nodes:
-        thing = bpy.data.objects.get(name)
-        if thing is not None and thing.type == "LIGHT" and name in shown:
+    for node, thing in nodes:
+        if thing.type == "LIGHT" and thing.name_full in shown:
             made.add(node, thing, foggy)
     return flags + made.flags, lens
+
+
+def _own_node(document, view):
+    """A camera that is hidden itself has no node of the exporter."""
+    matrix = Matrix.Rotation(-0.5 * math.pi, 4, "X") @ view.matrix_world.normalized()
+    index = document.add("nodes", {"name": view.name, "matrix": [matrix[row][column] for column in range(4) for row in range(4)]})
+    document.json["scenes"][document.json.get("scene", 0)].setdefault("nodes", []).append(index)
+    return document.json["nodes"][index]
 
 
 def _objects(nodes, shown, notes, flags, depsgraph):
     """Catchers of shadows as flags, what the program cannot hide, and the names of the nodes that are cut out."""
     catchers, holdouts = [], []
-    for node, name in nodes:
-        thing = bpy.data.objects.get(name)
-        if thing is None or name not in shown or thing.type in SILENT:
+    for node, thing in nodes:
+        if thing.name_full not in shown or thing.type in SILENT:
             continue
         if thing.type not in SOLID:
             notes.add(f"object '{thing.name}'", f"objects of the type {thing.type}")

@@ -149,7 +149,7 @@ class Lights:
                 self._punctual(node, f"{name}-{thing.name}", part, [half * p * s for p, s in zip(point, size)])
 
 
-def in_view(scene, camera, thing):
+def in_view(camera, thing):
     """Whether the camera may see the light, through everything: its ball is in the view, and its front faces the camera."""
     to_camera = camera.matrix_world.inverted()
     center = to_camera @ thing.matrix_world.translation

@@ -46,8 +46,7 @@ class GATELIGHT_OT_view(bpy.types.Operator):
         unused = {"--aov", "--cryptomatte", "--region"}
         pairs = list(zip(made.flags[::2], made.flags[1::2]))
         kept = [word for name, value in pairs if name not in unused for word in (name, value)]
-        log = open(os.path.join(_window["folder"], "log"), "w", encoding="utf-8")
-        with log:
+        with open(os.path.join(_window["folder"], "log"), "w", encoding="utf-8") as log:
             _window["child"] = subprocess.Popen([program, "view", made.path, *kept, *chosen], stdin=subprocess.DEVNULL, stdout=log,
                                                 stderr=log)
         self.report({"INFO"}, notes.summary() or "The window opens in the browser")

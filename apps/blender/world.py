@@ -16,9 +16,11 @@ SKY_SCALES = ((1.0, 42.0), (3.0, 49.3), (6.0, 53.3), (10.0, 50.0), (15.0, 45.3),
 def flags_of(world, folder, notes):
     if world is None:
         return ["--environment", "none"]
+    if not world.use_nodes:
+        return ["--environment", _numbers(world.color)]
     background = _background(world, notes)
     if background is None:
-        return ["--environment", _numbers(world.color)]
+        return ["--environment", "none"] + _fog(world, notes)
     strength, color = _value(background, "Strength", world, notes), background.inputs["Color"]
     if not color.is_linked:
         return ["--environment", _numbers([strength * c for c in color.default_value[:3]])] + _fog(world, notes)
@@ -45,9 +47,7 @@ def _output(world, name):
 
 
 def _background(world, notes):
-    """The Background node, or nothing where the world has no nodes."""
-    if not world.use_nodes:
-        return None
+    """The Background node, or nothing."""
     node = _output(world, "Surface")
     if node is not None and node.type != "BACKGROUND":
         notes.add(f"world '{world.name}'", f"the node '{node.name}' at its output; the first Background is taken")

@@ -56,7 +56,7 @@ def render(folder):
         bpy.ops.render.render(write_still=True)
         said = "no error"
     except RuntimeError as error:
-        said = str(error).strip()
+        said = str(error).strip().splitlines()[0]
     return said, time.monotonic() - begun
 
 

@@ -22,7 +22,7 @@ def main():
     scene = blender_session.set_up(engine, int(size), int(samples))
     build = next(build for title, build, *_ in blender_scenes.SCENES if title == name)
     build()
-    path = os.path.join(folder, f"{name.replace(', ', '-').replace(' ', '-')}-{engine.lower()}.exr")
+    path = os.path.join(folder, blender_session.file_name(name, engine))
     scene.render.filepath = path
     begun = time.monotonic()
     bpy.ops.render.render(write_still=True)

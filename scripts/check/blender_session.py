@@ -23,10 +23,17 @@ def enable(program):
     bpy.context.preferences.addons[EXTENSION].preferences.program = program
 
 
+def file_name(scene, engine):
+    """Of the picture of a scene."""
+    return f"{scene.replace(', ', '-').replace(' ', '-')}-{engine.lower()}.exr"
+
+
 def set_up(engine, size, samples):
     scene = bpy.context.scene
     scene.render.engine = engine
     scene.render.resolution_x = scene.render.resolution_y = size
+    if hasattr(scene.render.image_settings, "media_type"):
+        scene.render.image_settings.media_type = "MULTI_LAYER_IMAGE"
     scene.render.image_settings.file_format = "OPEN_EXR_MULTILAYER"
     scene.render.image_settings.color_depth = "32"
     if engine == "CYCLES":
