@@ -23,7 +23,7 @@ class GatelightEngine(bpy.types.RenderEngine):
 
     def update_render_passes(self, scene, renderlayer):
         for made in [passes.COMBINED, *passes.asked(renderlayer), *passes.mask_passes(renderlayer)]:
-            self.register_pass(scene, renderlayer, made.name, len(made.channels), made.channels, made.kind)
+            self.register_pass(scene, renderlayer, made.name_in(bpy.app.version), len(made.channels), made.channels, made.kind)
 
     def render(self, depsgraph):
         try:
@@ -143,9 +143,10 @@ class GatelightEngine(bpy.types.RenderEngine):
             pixels = passes.pixels_of(made, picture)
             if pixels is None:
                 continue
-            if made is not passes.COMBINED and made.name not in result.layers[0].passes:
-                self.add_pass(made.name, len(made.channels), made.channels, layer=layer.name)
-            target = result.layers[0].passes.get(made.name)
+            name = made.name_in(bpy.app.version)
+            if name not in result.layers[0].passes:
+                self.add_pass(name, len(made.channels), made.channels, layer=layer.name)
+            target = result.layers[0].passes.get(name)
             if target is not None:
                 target.rect.foreach_set(pixels.reshape(-1))
         self.end_result(result)

@@ -7,6 +7,7 @@ import zlib
 import numpy
 
 TYPES = {0: numpy.dtype("<u4"), 1: numpy.dtype("<f2"), 2: numpy.dtype("<f4")}
+LONG_NAMES = 4  # the only flag of the version that changes nothing here
 ROWS = {0: 1, 2: 1, 3: 16}  # rows of a block: uncompressed, ZIPS, ZIP
 
 
@@ -75,8 +76,8 @@ def read(path):
 
 
 def _parse(data):
-    if data[:4] != b"\x76\x2f\x31\x01":
-        raise ValueError("expected an EXR")
+    if data[:4] != b"\x76\x2f\x31\x01" or data[5] & ~LONG_NAMES:
+        raise ValueError("expected an EXR of one part with scanlines")
     header, texts, end = {}, {}, 8
     for name, kind, value, end in _attributes(data):
         header[name] = value

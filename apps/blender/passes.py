@@ -5,13 +5,18 @@ import json
 import numpy
 
 NOTHING = 1e10  # Blender's depth of the background
+LONG_NAMES = (5, 0, 0)  # the version of Blender from which on names are written out
 
 
 class Pass:
     """A pass of Blender: its channels, the property of the view layer that asks for it, and the layers that it is made of."""
 
-    def __init__(self, name, channels, kind, asked, layers, make=lambda *layers: layers[0]):
-        self.name, self.channels, self.kind, self.asked, self.layers, self.make = name, channels, kind, asked, layers, make
+    def __init__(self, name, channels, kind, asked, layers, make=lambda *layers: layers[0], long_name=None):
+        self.name, self.long_name = name, long_name or name
+        self.channels, self.kind, self.asked, self.layers, self.make = channels, kind, asked, layers, make
+
+    def name_in(self, version):
+        return self.long_name if version >= LONG_NAMES else self.name
 
 
 def _z_up(layer):
@@ -37,9 +42,10 @@ def _with_alpha(layer):
 
 def _light(name, kind, layer):
     """The passes of one kind of reflection. The colours of surfaces are in the light already, so Blender's colour is white."""
-    return [Pass(name + "Dir", "RGB", "COLOR", f"use_pass_{kind}_direct", [f"{layer}-direct"]),
-            Pass(name + "Ind", "RGB", "COLOR", f"use_pass_{kind}_indirect", [f"{layer}-indirect"]),
-            Pass(name + "Col", "RGB", "COLOR", f"use_pass_{kind}_color", [f"{layer}-direct"], _white)]
+    title = kind.title()
+    return [Pass(name + "Dir", "RGB", "COLOR", f"use_pass_{kind}_direct", [f"{layer}-direct"], long_name=f"{title} Direct"),
+            Pass(name + "Ind", "RGB", "COLOR", f"use_pass_{kind}_indirect", [f"{layer}-indirect"], long_name=f"{title} Indirect"),
+            Pass(name + "Col", "RGB", "COLOR", f"use_pass_{kind}_color", [f"{layer}-direct"], _white, f"{title} Color")]
 
 
 COMBINED = Pass("Combined", "RGBA", "COLOR", "use_pass_combined", [""], _with_alpha)
@@ -49,10 +55,10 @@ PASSES = [
     Pass("Normal", "XYZ", "VECTOR", "use_pass_normal", ["normal"], _z_up),
     Pass("Vector", "XYZW", "VECTOR", "use_pass_vector", ["motion", "motion-next"], _vector),
     *_light("Diff", "diffuse", "diffuse"), *_light("Gloss", "glossy", "glossy"), *_light("Trans", "transmission", "transmission"),
-    Pass("VolumeDir", "RGB", "COLOR", "use_pass_volume_direct", ["volume-direct"]),
-    Pass("VolumeInd", "RGB", "COLOR", "use_pass_volume_indirect", ["volume-indirect"]),
-    Pass("Emit", "RGB", "COLOR", "use_pass_emit", ["emission"]),
-    Pass("Env", "RGB", "COLOR", "use_pass_environment", ["background"]),
+    Pass("VolumeDir", "RGB", "COLOR", "use_pass_volume_direct", ["volume-direct"], long_name="Volume Direct"),
+    Pass("VolumeInd", "RGB", "COLOR", "use_pass_volume_indirect", ["volume-indirect"], long_name="Volume Indirect"),
+    Pass("Emit", "RGB", "COLOR", "use_pass_emit", ["emission"], long_name="Emission"),
+    Pass("Env", "RGB", "COLOR", "use_pass_environment", ["background"], long_name="Environment"),
     Pass("Noisy Image", "RGBA", "COLOR", "denoising_store_passes", ["denoising-color"], _with_alpha),
     Pass("Denoising Normal", "XYZ", "VECTOR", "denoising_store_passes", ["denoising-normal"], _z_up),
     Pass("Denoising Albedo", "RGB", "COLOR", "denoising_store_passes", ["denoising-albedo"]),
@@ -78,7 +84,7 @@ def masks(view_layer):
 
 def mask_passes(view_layer):
     kinds, levels = masks(view_layer)
-    return [Pass(f"Crypto{kind.title()}{level:02d}", "RGBA", "COLOR", None, [f"Crypto{kind.title()}{level:02d}"])
+    return [Pass(f"Crypto{kind.title()}{level:02d}", "rgba", "COLOR", None, [f"Crypto{kind.title()}{level:02d}"])
             for kind in kinds for level in range(levels)]
 
 

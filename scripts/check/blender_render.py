@@ -31,10 +31,10 @@ def main():
     import exr  # noqa: PLC0415  the extension's own reader
     layers = exr.read(path).layers
     layers = {key: pixels for key, pixels in layers.items() if ".Crypto" not in key}
-    for kind in ("Dir", "Ind"):  # Cycles divides light by the surface's colour, Gatelight leaves it in
-        for key in [key for key in layers if key.endswith(kind)]:
-            layers[key] = layers[key] * layers.get(key.replace(kind, "Col"), 1.0)
-    layers = {key: pixels for key, pixels in layers.items() if not key.endswith("Col")}
+    for kind, color in (("Dir", "Col"), ("Ind", "Col"), ("Direct", "Color"), ("Indirect", "Color")):
+        for key in [key for key in layers if key.endswith(kind)]:  # Cycles divides light by the surface's colour
+            layers[key] = layers[key] * layers.get(key.removesuffix(kind) + color, 1.0)
+    layers = {key: pixels for key, pixels in layers.items() if not key.endswith(("Col", "Color"))}
     means = {key.partition(".")[2]: [float(x) for x in numpy.where(pixels < 1e9, pixels, 0.0).mean(axis=(0, 1))]
              for key, pixels in layers.items()}
     print("RESULT " + json.dumps({"means": means, "seconds": seconds}))

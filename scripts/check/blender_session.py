@@ -35,6 +35,8 @@ def set_up(engine, size, samples):
     if hasattr(scene.render.image_settings, "media_type"):
         scene.render.image_settings.media_type = "MULTI_LAYER_IMAGE"
     scene.render.image_settings.file_format = "OPEN_EXR_MULTILAYER"
+    if hasattr(scene.render.image_settings, "use_exr_interleave"):
+        scene.render.image_settings.use_exr_interleave = True  # one part, as earlier versions
     scene.render.image_settings.color_depth = "32"
     if engine == "CYCLES":
         cycles = scene.cycles
