@@ -58,7 +58,7 @@ def _call_exporter(scene, view_layer, path, animated):
               "export_cameras": True, "export_lights": True, "export_apply": True, "export_yup": True, "export_extras": False,
               "export_gn_mesh": True, "export_current_frame": True, "export_animations": animated, "export_frame_range": True,
               "export_animation_mode": "SCENE", "export_force_sampling": True, "export_anim_scene_split_object": False,
-              "export_optimize_animation_size": True, "export_image_format": "AUTO", "export_keep_originals": False}
+              "export_rest_position_armature": False, "export_image_format": "AUTO", "export_keep_originals": False}
     frame = scene.frame_current, scene.frame_subframe  # which the exporter changes where it samples animations
     if not hasattr(bpy.types, "EXPORT_SCENE_OT_gltf"):
         raise Unusable("Blender's glTF exporter is not there: expected the add-on 'glTF 2.0 format' to be enabled")

@@ -219,8 +219,11 @@ def volumes():
 
 
 def world_fog():
-    _lit_stage()
-    made = bpy.context.scene.world
+    """In a closed room, since the fog of Cycles has no end."""
+    stage()
+    box(material("walls", (0.4, 0.4, 0.4)), (0.0, -2.0, 2.9), 12.0).scale.z = 0.5
+    lamp("AREA", (0.0, -1.0, 5.0), energy=500.0, size=2.0)
+    made, _ = world()
     fog = made.node_tree.nodes.new("ShaderNodeVolumeScatter")
     fog.inputs["Density"].default_value = 0.05
     made.node_tree.links.new(fog.outputs[0], made.node_tree.nodes["World Output"].inputs["Volume"])
@@ -307,7 +310,7 @@ SCENES = [
     ("subsurface", principled_subsurface, PRINCIPLED, ""),
     ("emission", emitters, LIGHTS, ""),
     ("volume", volumes, PRINCIPLED, ""),
-    ("fog", world_fog, None, "fog ends with the scene"),
+    ("fog", world_fog, PRINCIPLED, ""),
     ("instances", instances_and_modifiers, LIGHTS, ""),
     ("transparency", transparent_film, LIGHTS, ""),
     ("animation", moving_ball, LIGHTS, ""),
