@@ -112,7 +112,7 @@ class GatelightEngine(bpy.types.RenderEngine):
             if self.test_break():
                 job.stop()
                 return
-            if time.monotonic() > due:
+            if time.monotonic() > due and job.run.progress.get("phase") == "render":  # before, there is nothing to see
                 wait = min(2.0 * wait, SLOWEST_SNAPSHOT)
                 due = time.monotonic() + wait
                 job.run.ask_for_snapshot()

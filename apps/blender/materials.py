@@ -213,7 +213,8 @@ def add_default(document):
     """Surfaces without a material are grey and matt in Blender."""
     bare = [part for mesh in document.json.get("meshes", []) for part in mesh["primitives"] if "material" not in part]
     if bare:
-        grey = {"name": "none", "doubleSided": True, "pbrMetallicRoughness": {"baseColorFactor": [0.8, 0.8, 0.8, 1.0], "metallicFactor": 0.0}}
+        grey = {"name": "none", "doubleSided": True,
+                "pbrMetallicRoughness": {"baseColorFactor": [0.8, 0.8, 0.8, 1.0], "metallicFactor": 0.0}}
         document.extend(grey, "KHR_materials_specular", {"specularFactor": 0.0})
         index = document.add("materials", grey)
         for part in bare:

@@ -101,7 +101,8 @@ def _picture(texture, strength, world, folder, notes):
 
 def _sky(sky, strength, world, notes):
     if sky.sky_type not in ("NISHITA", "SINGLE_SCATTERING", "MULTIPLE_SCATTERING"):
-        elevation, azimuth = math.degrees(math.asin(sky.sun_direction.z)), math.degrees(math.atan2(sky.sun_direction.x, sky.sun_direction.y))
+        elevation = math.degrees(math.asin(sky.sun_direction.z))
+        azimuth = math.degrees(math.atan2(sky.sun_direction.x, sky.sun_direction.y))
         size = 0.0
     else:
         elevation, azimuth = math.degrees(sky.sun_elevation), math.degrees(sky.sun_rotation)

@@ -62,7 +62,8 @@ def stage(first=None, second=None):
     """A floor, a box and a ball, and the camera."""
     floor()
     camera()
-    return box(first or material("red", (0.7, 0.2, 0.1)), (-1.1, 0.0, 0.72)), ball(second or material("blue", (0.1, 0.3, 0.7)), (1.1, 0.0, 0.8))
+    cube = box(first or material("red", (0.7, 0.2, 0.1)), (-1.1, 0.0, 0.72))
+    return cube, ball(second or material("blue", (0.1, 0.3, 0.7)), (1.1, 0.0, 0.8))
 
 
 def camera(**values):
@@ -192,11 +193,13 @@ def principled_rough():
 
 
 def principled_metal():
-    _lit_stage(principled("gold", (0.9, 0.6, 0.2), Metallic=1.0, Roughness=0.3), principled("steel", (0.6, 0.6, 0.6), Metallic=1.0, Roughness=0.1))
+    _lit_stage(principled("gold", (0.9, 0.6, 0.2), Metallic=1.0, Roughness=0.3),
+               principled("steel", (0.6, 0.6, 0.6), Metallic=1.0, Roughness=0.1))
 
 
 def principled_coat():
-    _lit_stage(principled("coat", (0.5, 0.1, 0.1), Coat_Weight=1.0, Coat_Roughness=0.05), principled("sheen", (0.2, 0.2, 0.3), Sheen_Weight=0.8))
+    _lit_stage(principled("coat", (0.5, 0.1, 0.1), Coat_Weight=1.0, Coat_Roughness=0.05),
+               principled("sheen", (0.2, 0.2, 0.3), Sheen_Weight=0.8))
 
 
 def principled_glass():
@@ -206,7 +209,8 @@ def principled_glass():
 
 def principled_subsurface():
     skin = dict(Subsurface_Weight=1.0, Subsurface_Radius=(1.0, 0.4, 0.2), Roughness=0.6)
-    _lit_stage(principled("wax", (0.8, 0.7, 0.5), Subsurface_Scale=0.1, **skin), principled("skin", (0.8, 0.5, 0.4), Subsurface_Scale=0.03, **skin))
+    _lit_stage(principled("wax", (0.8, 0.7, 0.5), Subsurface_Scale=0.1, **skin),
+               principled("skin", (0.8, 0.5, 0.4), Subsurface_Scale=0.03, **skin))
 
 
 def emitters():

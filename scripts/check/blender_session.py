@@ -40,7 +40,8 @@ def set_up(engine, size, samples):
     scene.render.image_settings.color_depth = "32"
     if engine == "CYCLES":
         cycles = scene.cycles
-        cycles.samples, cycles.use_denoising, cycles.use_adaptive_sampling, cycles.sample_clamp_indirect, cycles.blur_glossy = samples, False, False, 0.0, 0.0
+        cycles.samples, cycles.use_denoising, cycles.use_adaptive_sampling = samples, False, False
+        cycles.sample_clamp_indirect = cycles.blur_glossy = 0.0
         cycles.max_bounces = cycles.diffuse_bounces = cycles.glossy_bounces = cycles.transmission_bounces = cycles.volume_bounces = 64
     else:
         settings = scene.gatelight
