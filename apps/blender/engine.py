@@ -75,6 +75,7 @@ class GatelightEngine(bpy.types.RenderEngine):
         frames = list(animation.frames(scene)) if whole else [scene.frame_current]
         made = export(scene, depsgraph, folder, notes, animated)
         notes.print()
+        chosen = flags.for_media(chosen) if made.only_clear_media else chosen
         command = [program, "render", made.path, *made.flags, *chosen, "--exr", "float", "--progress", "json"]
         output = os.path.join(folder, "picture.exr")
         if animated:

@@ -24,6 +24,7 @@ class Exported:
     flags: list
     holdouts: list  # names of nodes that are cut out
     lens: camera.Lens
+    only_clear_media: bool
 
 
 def export(scene, depsgraph, folder, notes, animated):
@@ -50,7 +51,7 @@ def export(scene, depsgraph, folder, notes, animated):
     flags += passes.flags(depsgraph.view_layer, holdouts)
     passes.complain(depsgraph.view_layer, notes)
     document.save()
-    return Exported(path, flags, holdouts, lens)
+    return Exported(path, flags, holdouts, lens, materials.has_only_clear_media(document))
 
 
 def _call_exporter(scene, view_layer, path, animated):

@@ -26,6 +26,12 @@ def of_panel(values):
     return flags + further(values.get("more", ""))
 
 
+def for_media(chosen):
+    """The same for a scene whose media have clear surfaces and that has no other glass: light then goes straight, and is sampled at
+    each event. The presets have this."""
+    return chosen if {"--glass-shadows", "--preset"}.intersection(chosen) else [*chosen, "--glass-shadows", "straight"]
+
+
 def further(text):
     """The words of the field for all other flags. Throws BadFlags."""
     try:

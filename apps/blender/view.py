@@ -38,6 +38,7 @@ class GATELIGHT_OT_view(bpy.types.Operator):
             find_program.check(program)
             made = export(context.scene, context.evaluated_depsgraph_get(), _window["folder"], notes, False)
             chosen = flags.of_panel(preferences.values(context.scene.gatelight))
+            chosen = flags.for_media(chosen) if made.only_clear_media else chosen
         except (Unusable, find_program.NoProgram, flags.BadFlags, OSError) as error:
             close()
             self.report({"ERROR"}, str(error))

@@ -76,6 +76,10 @@ class Flags(unittest.TestCase):
             with self.assertRaises(flags.BadFlags):
                 flags.further(bad)
 
+    def test_media_have_straight_shadows_unless_chosen(self):
+        self.assertEqual(flags.for_media(["--spp", "4"]), ["--spp", "4", "--glass-shadows", "straight"])
+        self.assertEqual(flags.for_media(["--glass-shadows", "refract"]), ["--glass-shadows", "refract"])
+
     def test_bounces_are_events_less_one(self):
         taken = flags.from_cycles(dict(samples=7, use_denoising=True, max_bounces=0, transmission_bounces=2, time_limit=0.0, seed=3))
         self.assertEqual((taken["spp"], taken["max_depth"], taken["max_transmission_depth"], taken["denoiser"]), (7, 1, 3, "oidn"))
