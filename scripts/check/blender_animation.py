@@ -27,6 +27,8 @@ def moving_scene():
     settings = scene.gatelight
     settings.preset, settings.integrator, settings.denoiser, settings.spp = "standard", "nrc", "DEFAULT", 0
     scene.view_layers[0].use_pass_vector = False
+    if hasattr(scene.render.image_settings, "media_type"):
+        scene.render.image_settings.media_type = "IMAGE"
     scene.render.image_settings.file_format = "PNG"
     return scene
 
