@@ -9,8 +9,9 @@ from . import exr, materials
 
 ROTATION = -90.0  # between the first meridian of Blender's pictures and the program's
 # Radiance of a horizontal surface below Blender's sky over that below the program's, by the sun's elevation in degrees, measured.
-SKY_SCALES = ((1.0, 42.0), (3.0, 49.3), (6.0, 53.3), (10.0, 50.0), (15.0, 45.3), (25.0, 40.2), (35.0, 38.0), (50.0, 36.5), (70.0, 35.8),
-              (90.0, 35.9))
+ELEVATIONS = (1.0, 3.0, 6.0, 10.0, 15.0, 25.0, 35.0, 50.0, 70.0, 90.0)
+SINGLE_SCATTERING = (42.0, 49.3, 53.6, 50.6, 46.0, 41.1, 38.9, 37.5, 36.8, 36.9)
+MULTIPLE_SCATTERING = (54.2, 59.8, 62.3, 58.1, 52.5, 46.7, 44.4, 42.8, 42.1, 42.0)  # since 5.0
 
 
 def flags_of(world, folder, notes):
@@ -113,7 +114,8 @@ def _sky(sky, strength, world, notes):
         notes.add(f"world '{world.name}'", "a sun below the horizon; it stands at the horizon")
     notes.add(f"world '{world.name}'", "Blender's sky; it is the program's clear sky of the same brightness, with other colours")
     elevation = max(elevation, 0.0)
-    scale = strength * float(numpy.interp(elevation, *zip(*SKY_SCALES)))
+    scales = MULTIPLE_SCATTERING if sky.sky_type == "MULTIPLE_SCATTERING" else SINGLE_SCATTERING
+    scale = strength * float(numpy.interp(elevation, ELEVATIONS, scales))
     return ["--sky", f"sun={azimuth % 360.0:.6g},{elevation:.6g}, size={max(size, 0.1):.4g}, intensity={scale:.6g}, ground=0"]
 
 
