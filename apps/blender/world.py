@@ -12,6 +12,8 @@ ROTATION = -90.0  # between the first meridian of Blender's pictures and the pro
 ELEVATIONS = (1.0, 3.0, 6.0, 10.0, 15.0, 25.0, 35.0, 50.0, 70.0, 90.0)
 SINGLE_SCATTERING = (42.0, 49.3, 53.6, 50.6, 46.0, 41.1, 38.9, 37.5, 36.8, 36.9)
 MULTIPLE_SCATTERING = (54.2, 59.8, 62.3, 58.1, 52.5, 46.7, 44.4, 42.8, 42.1, 42.0)  # since 5.0
+# Skies without a sun: their mean radiance with the sun at 35 degrees, measured.
+ONE_COLOR = {"PREETHAM": (0.317, 0.457, 0.809), "HOSEK_WILKIE": (0.0392, 0.0659, 0.112)}
 
 
 def flags_of(world, folder, notes):
@@ -101,22 +103,20 @@ def _picture(texture, strength, world, folder, notes):
 
 
 def _sky(sky, strength, world, notes):
-    if sky.sky_type not in ("NISHITA", "SINGLE_SCATTERING", "MULTIPLE_SCATTERING"):
-        elevation = math.degrees(math.asin(sky.sun_direction.z))
-        azimuth = math.degrees(math.atan2(sky.sun_direction.x, sky.sun_direction.y))
-        size = 0.0
-    else:
-        elevation, azimuth = math.degrees(sky.sun_elevation), math.degrees(sky.sun_rotation)
-        size = math.degrees(sky.sun_size) if sky.sun_disc else 0.0
-        if not sky.sun_disc:
-            notes.add(f"world '{world.name}'", "a sky without its sun; it has a sun")
+    what = f"world '{world.name}'"
+    if sky.sky_type in ONE_COLOR:
+        notes.add(what, f"the sky of the kind {sky.sky_type}, which has no sun; it has one colour")
+        return ["--environment", _numbers([strength * c for c in ONE_COLOR[sky.sky_type]])]
+    elevation, azimuth = math.degrees(sky.sun_elevation), math.degrees(sky.sun_rotation)
+    notes.add(what, "Blender's sky; it is the program's clear sky of the same brightness, with other colours")
+    if not sky.sun_disc:
+        notes.add(what, "a sky without its sun; it has a sun")
     if elevation < 0.0:
-        notes.add(f"world '{world.name}'", "a sun below the horizon; it stands at the horizon")
-    notes.add(f"world '{world.name}'", "Blender's sky; it is the program's clear sky of the same brightness, with other colours")
-    elevation = max(elevation, 0.0)
+        notes.add(what, "a sun below the horizon; it stands at the horizon")
+    elevation, size = max(elevation, 0.0), max(math.degrees(sky.sun_size), 0.1)
     scales = MULTIPLE_SCATTERING if sky.sky_type == "MULTIPLE_SCATTERING" else SINGLE_SCATTERING
     scale = strength * float(numpy.interp(elevation, ELEVATIONS, scales))
-    return ["--sky", f"sun={azimuth % 360.0:.6g},{elevation:.6g}, size={max(size, 0.1):.4g}, intensity={scale:.6g}, ground=0"]
+    return ["--sky", f"sun={azimuth % 360.0:.6g},{elevation:.6g}, size={size:.4g}, intensity={scale:.6g}, ground=0"]
 
 
 def has_volume(world):
