@@ -8,7 +8,7 @@ import os
 import bpy
 from mathutils import Matrix, Vector
 
-from . import animation, camera, exporter_hooks, gltf_document, lights, materials, passes, world
+from . import camera, exporter_hooks, gltf_document, lights, materials, passes, world
 
 SOLID = {"MESH", "CURVE", "SURFACE", "META", "FONT"}
 SILENT = {"EMPTY", "CAMERA", "LIGHT", "ARMATURE", "LATTICE", "SPEAKER", "LIGHT_PROBE"}  # nothing of them is lost

@@ -224,7 +224,8 @@ def add_default(document):
 def has_only_clear_media(document):
     """Whether there are media behind surfaces that do not refract, and no surface that does."""
     found = [element.get("extensions", {}) for element in document.json.get("materials", [])]
-    bodies = [e for e in found if "KHR_materials_volume" in e and e.get("KHR_materials_transmission", {}).get("transmissionFactor", 0.0) > 0.0]
+    bodies = [e for e in found if "KHR_materials_volume" in e and
+              e.get("KHR_materials_transmission", {}).get("transmissionFactor", 0.0) > 0.0]
     return bool(bodies) and all(e.get("KHR_materials_ior", {}).get("ior", 1.5) == 1.0 for e in bodies)
 
 
