@@ -20,6 +20,7 @@ class GatelightEngine(bpy.types.RenderEngine):
     bl_use_preview = False
     bl_use_postprocess = True
     bl_use_eevee_viewport = True
+    bl_use_shading_nodes_custom = False  # the shader editor offers the nodes of Cycles
 
     def update_render_passes(self, scene, renderlayer):
         for made in [passes.COMBINED, *passes.asked(renderlayer), *passes.mask_passes(renderlayer)]:

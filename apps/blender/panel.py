@@ -5,11 +5,11 @@ import bpy
 from . import flags
 
 ENGINE = "GATELIGHT"
-# Panels of Blender that say something to this engine too.
-SHARED = ("RENDER_PT_output", "RENDER_PT_format", "RENDER_PT_frame_range", "RENDER_PT_color_management", "RENDER_PT_post_processing",
-          "RENDER_PT_stamp", "VIEWLAYER_PT_layer", "VIEWLAYER_PT_layer_passes", "DATA_PT_light", "DATA_PT_lens", "DATA_PT_camera",
-          "DATA_PT_camera_dof", "DATA_PT_camera_dof_aperture", "WORLD_PT_context_world", "MATERIAL_PT_preview", "EEVEE_MATERIAL_PT_surface",
-          "EEVEE_MATERIAL_PT_context_material", "EEVEE_WORLD_PT_surface", "CYCLES_RENDER_PT_passes_data")
+# Panels of other engines that say something to this one too, and general ones that say nothing to it.
+TAKEN = ("DATA_PT_EEVEE_light", "DATA_PT_camera_dof", "DATA_PT_camera_dof_aperture", "EEVEE_MATERIAL_PT_context_material",
+         "EEVEE_MATERIAL_PT_surface", "EEVEE_MATERIAL_PT_volume", "EEVEE_WORLD_PT_surface", "EEVEE_WORLD_PT_volume", "CYCLES_RENDER_PT_passes",
+         "CYCLES_RENDER_PT_passes_data", "CYCLES_RENDER_PT_passes_light", "CYCLES_RENDER_PT_passes_crypto")
+LEFT = ("DATA_PT_light", "DATA_PT_spot", "RENDER_PT_freestyle", "VIEWLAYER_PT_freestyle", "RENDER_PT_gpencil", "RENDER_PT_grease_pencil")
 
 
 class GATELIGHT_OT_from_cycles(bpy.types.Operator):
@@ -49,7 +49,7 @@ class _Panel(bpy.types.Panel):
 
 class GATELIGHT_PT_sampling(_Panel):
     bl_label = "Sampling"
-    rows = ("preset", "spp", "time_limit", "max_error", "denoiser", "integrator")
+    rows = ("preset", "spp", "time_limit", "max_error", "denoiser", "integrator", "device")
 
     def draw(self, context):
         super().draw(context)
@@ -78,25 +78,38 @@ class GATELIGHT_PT_film(_Panel):
 class GATELIGHT_PT_more(_Panel):
     bl_label = "Everything Else"
     bl_options = {"DEFAULT_CLOSED"}
-    rows = ("device", "threads", "seed", "more")
+    rows = ("threads", "seed", "more")
 
 
-CLASSES = (GATELIGHT_OT_from_cycles, GATELIGHT_PT_sampling, GATELIGHT_PT_paths, GATELIGHT_PT_film, GATELIGHT_PT_more)
+class GATELIGHT_PT_visibility(_Panel):
+    """What Cycles has in panels of its own."""
+    bl_label = "Visibility in Gatelight"
+    bl_context = "object"
+
+    def draw(self, context):
+        self.layout.use_property_split = True
+        thing = context.object
+        self.layout.prop(thing, "visible_camera" if thing.type == "LIGHT" else "is_shadow_catcher")
 
 
-def _shared_panels():
-    return [found for found in (getattr(bpy.types, name, None) for name in SHARED) if hasattr(found, "COMPAT_ENGINES")]
+CLASSES = (GATELIGHT_OT_from_cycles, GATELIGHT_PT_sampling, GATELIGHT_PT_paths, GATELIGHT_PT_film, GATELIGHT_PT_more, GATELIGHT_PT_visibility)
+
+
+def _share(change):
+    """Sets the engines of Blender's panels. Each gets its own set, since many inherit one."""
+    for found in bpy.types.Panel.__subclasses__():
+        name, engines = found.__name__, getattr(found, "COMPAT_ENGINES", ())
+        if name in TAKEN or ("BLENDER_RENDER" in engines and not name.startswith(LEFT)):
+            found.COMPAT_ENGINES = change(set(engines))
 
 
 def register():
     for cls in CLASSES:
         bpy.utils.register_class(cls)
-    for found in _shared_panels():
-        found.COMPAT_ENGINES.add(ENGINE)
+    _share(lambda engines: engines | {ENGINE})
 
 
 def unregister():
-    for found in _shared_panels():
-        found.COMPAT_ENGINES.discard(ENGINE)
+    _share(lambda engines: engines - {ENGINE})
     for cls in reversed(CLASSES):
         bpy.utils.unregister_class(cls)
