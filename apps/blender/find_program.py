@@ -38,7 +38,8 @@ def find(preference):
     raise NoProgram(f"there is no program 'gatelight' {where}: install it, or name its file or folder in the extension's preferences")
 
 
-def _output(path, *arguments):
+def output(path, *arguments):
+    """What the program writes to stdout. Throws NoProgram."""
     try:
         done = subprocess.run([path, *arguments], capture_output=True, text=True, encoding="utf-8", timeout=20, check=False)
     except (OSError, subprocess.TimeoutExpired) as error:
@@ -56,10 +57,10 @@ def check(path):
     """The help of `render`. Throws NoProgram if the program is another or too old. Asks once as long as the file stays the same."""
     key = (path, os.stat(path).st_mtime_ns)
     if key not in _helps:
-        version, oldest = version_of(_output(path, "--version")), ".".join(map(str, OLDEST))
+        version, oldest = version_of(output(path, "--version")), ".".join(map(str, OLDEST))
         if version is None:
             raise NoProgram(f"'{path}' is not Gatelight: expected 'gatelight {oldest}' or later from --version")
-        text = _output(path, "render", "--help-all")
+        text = output(path, "render", "--help-all")
         missing = [flag for flag in NEEDED if flag not in text]
         if version < OLDEST or missing:
             lack = f" without {', '.join(missing)}" if missing else ""
