@@ -33,7 +33,7 @@ def border(render, width, height):
 def add(document, node, camera, render, notes):
     """Sets the camera of the document's node. Returns the flags of the view, and its lens."""
     width, height = picture_size(render)
-    fit = {"HORIZONTAL": width, "VERTICAL": height}.get(camera.data.sensor_fit, max(width, height))
+    fit = _fitted(camera.data, width, height)
     size, (x, y) = units.shifted_frame(width, height, camera.data.shift_x, camera.data.shift_y, fit)
     left, bottom, right, top = border(render, width, height)
     part = (x + left, y + height - top, x + right, y + height - bottom)
@@ -54,9 +54,14 @@ def add(document, node, camera, render, notes):
     return flags + _blur(camera, notes), Lens(size, slope)
 
 
+def _fitted(data, width, height):
+    """The side of the picture, in pixels, that the sensor fits."""
+    return {"HORIZONTAL": width, "VERTICAL": height}.get(data.sensor_fit, max(width, height))
+
+
 def _projection(data, width, height, size):
     if data.type == "ORTHO":
-        fit = {"HORIZONTAL": width, "VERTICAL": height}.get(data.sensor_fit, max(width, height))
+        fit = _fitted(data, width, height)
         return {"name": CAMERA, "type": "orthographic", "orthographic": {
             "xmag": 0.5 * data.ortho_scale * size[0] / fit, "ymag": 0.5 * data.ortho_scale * size[1] / fit, "znear": 0.0, "zfar": 1e6}}
     fov = units.vertical_fov(data.lens, data.sensor_width, data.sensor_height, data.sensor_fit, width, height)

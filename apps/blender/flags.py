@@ -2,7 +2,10 @@
 
 import shlex
 
-NOT_GIVEN = ("", 0, 0.0, "NONE", "DEFAULT")
+# Properties of the panel that are flags; these values leave the choice to the preset.
+NAMES = ("preset", "integrator", "denoiser", "glass_shadows", "spp", "time_limit", "max_error", "max_depth", "max_transmission_depth", "clamp",
+         "threads", "seed", "device")
+NOT_GIVEN = ("", 0, "NONE", "DEFAULT", "cpu")
 
 
 class BadFlags(Exception):
@@ -10,20 +13,11 @@ class BadFlags(Exception):
 
 
 def of_panel(values):
-    """Flags of the panel's values, by the names of its properties. A value of 0 or DEFAULT leaves the choice to the preset."""
-    flags = []
-    for name in ("preset", "integrator", "denoiser", "glass_shadows"):
-        value = values.get(name, "DEFAULT")
-        if value not in NOT_GIVEN:
-            flags += ["--" + name.replace("_", "-"), value]
-    for name in ("spp", "time_limit", "max_error", "max_depth", "max_transmission_depth", "clamp", "threads"):
-        if values.get(name):
-            flags += ["--" + name.replace("_", "-"), f"{values[name]:g}" if isinstance(values[name], float) else str(values[name])]
-    if values.get("seed"):
-        flags += ["--seed", str(values["seed"])]
-    if values.get("device", "cpu") not in ("", "cpu"):
-        flags += ["--device", values["device"]]
-    return flags + further(values.get("more", ""))
+    """Flags of the panel's values, by the names of its properties."""
+    given = {name: values[name] for name in NAMES if values.get(name, 0) not in NOT_GIVEN}
+    words = [word for name, value in given.items()
+             for word in ("--" + name.replace("_", "-"), f"{value:g}" if isinstance(value, float) else str(value))]
+    return words + further(values.get("more", ""))
 
 
 def for_media(chosen):
@@ -42,6 +36,17 @@ def further(text):
         if any(word == taken or word.startswith(taken + "=") for word in words):
             raise BadFlags(f"further flags: {taken} is Blender's own; expected other flags of 'gatelight render'")
     return words
+
+
+def known_of(words, known):
+    """The words without flags that are not among the known ones, and their values."""
+    kept, keeps = [], True
+    for word in words:
+        if word.startswith("--"):
+            keeps = word[2:].partition("=")[0] in known
+        if keeps:
+            kept.append(word)
+    return kept
 
 
 def from_cycles(cycles):

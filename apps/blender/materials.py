@@ -15,8 +15,8 @@ class Surface:
     def __init__(self, document, element, material, notes):
         self.document, self.element, self.notes = document, element, notes
         self.what = f"material '{material.name}'"
-        self.surface = _at_output(material, "Surface")
-        self.volume = _at_output(material, "Volume")
+        self.surface = at_output(material, "Surface")
+        self.volume = at_output(material, "Volume")
         self.material = material
 
     def patch(self):
@@ -30,7 +30,7 @@ class Surface:
         if self.volume is not None:
             self._fill(node)
         self._complain_about_nodes()
-        if self.material.displacement_method != "BUMP" and _at_output(self.material, "Displacement"):
+        if self.material.displacement_method != "BUMP" and at_output(self.material, "Displacement"):
             self.notes.add(self.what, "displacement")
 
     # Surfaces, by the type of their node.
@@ -182,10 +182,11 @@ def upstream(socket):
     return found
 
 
-def _at_output(material, name):
-    if not material.use_nodes or not material.node_tree:
+def at_output(owner, name):
+    """The node at an output of a material or a world; None: there is none."""
+    if not owner.use_nodes or not owner.node_tree:
         return None
-    output = material.node_tree.get_output_node("CYCLES") or material.node_tree.get_output_node("ALL")
+    output = owner.node_tree.get_output_node("CYCLES") or material.node_tree.get_output_node("ALL")
     links = output.inputs[name].links if output else ()
     return links[0].from_node if links else None
 

@@ -1,10 +1,7 @@
 """The texts of the program's flags, taken from the table that its help prints."""
 
-import json
-import os
 import re
 
-TABLE = os.path.join(os.path.dirname(__file__), "option_texts.json")
 COLUMN = 30  # where the help's explanations begin
 
 
@@ -21,11 +18,3 @@ def parse(text):
         else:
             name = None
     return texts
-
-
-def load(help_text):
-    """The table that the packaging wrote, or what the program's own help says (None: there is no program)."""
-    if os.path.exists(TABLE):
-        with open(TABLE, encoding="utf-8") as file:
-            return json.load(file)
-    return parse(help_text or "")

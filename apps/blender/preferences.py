@@ -1,10 +1,14 @@
 """Preferences of the extension and properties of a scene."""
 
+import json
+import os
+
 import bpy
 
 from . import find_program, option_texts
 
 PRESETS = ("NONE", "preview", "standard", "final")
+TABLE = os.path.join(os.path.dirname(__file__), "option_texts.json")
 _texts = {}
 
 
@@ -74,12 +78,19 @@ def _properties():
     }
 
 
-def register():
+def _load_texts():
+    """The table that the packaging wrote; else what an installed program says."""
+    if os.path.exists(TABLE):
+        with open(TABLE, encoding="utf-8") as file:
+            return json.load(file)
     try:
-        help_text = find_program.check(find_program.find(""))
+        return option_texts.parse(find_program.check(find_program.find("")))
     except find_program.NoProgram:
-        help_text = None
-    _texts.update(option_texts.load(help_text))
+        return {}
+
+
+def register():
+    _texts.update(_load_texts())
     GatelightSettings.__annotations__ = _properties()
     bpy.utils.register_class(GatelightPreferences)
     bpy.utils.register_class(GatelightSettings)

@@ -42,16 +42,9 @@ def _numbers(values):
     return ",".join(f"{value:.9g}" for value in values) if max(values) > 0.0 else "none"
 
 
-def _output(world, name):
-    if not world.use_nodes or not world.node_tree:
-        return None
-    output = world.node_tree.get_output_node("CYCLES") or world.node_tree.get_output_node("ALL")
-    return output.inputs[name].links[0].from_node if output and output.inputs[name].is_linked else None
-
-
 def _background(world, notes):
     """The Background node, or nothing."""
-    node = _output(world, "Surface")
+    node = materials.at_output(world, "Surface")
     if node is not None and node.type != "BACKGROUND":
         notes.add(f"world '{world.name}'", f"the node '{node.name}' at its output; the first Background is taken")
         node = next((n for n in world.node_tree.nodes if n.type == "BACKGROUND"), None)
@@ -120,11 +113,11 @@ def _sky(sky, strength, world, notes):
 
 
 def has_volume(world):
-    return _output(world, "Volume") is not None
+    return materials.at_output(world, "Volume") is not None
 
 
 def _fog(world, notes):
-    node = _output(world, "Volume")
+    node = materials.at_output(world, "Volume")
     if node is None:
         return []
     medium = materials.medium_of(node, f"world '{world.name}'", notes)
