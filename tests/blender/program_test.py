@@ -56,18 +56,16 @@ class Manifest(unittest.TestCase):
 
 
 class Texts(unittest.TestCase):
-    def test_every_flag_has_its_own_text(self):
+    def test_every_property_has_a_tooltip(self):
         texts = option_texts.parse(find_program.check(PROGRAM))
-        self.assertGreater(len(texts), 80)
-        for flag in ("preset", "spp", "time-limit", "max-error", "denoiser", "integrator", "max-depth", "max-transmission-depth", "clamp",
-                     "glass-shadows", "device", "threads", "seed"):
-            self.assertGreater(len(texts[flag]), 10, flag)
-        self.assertIn("ambient occlusion (ao)", texts["integrator"])
+        for name in flags.NAMES:
+            self.assertGreater(len(texts[name.replace("_", "-")]), 10, name)
 
 
 class Flags(unittest.TestCase):
     def test_zero_leaves_the_choice_to_the_preset(self):
-        self.assertEqual(flags.of_panel({"preset": "standard", "spp": 0, "denoiser": "DEFAULT", "device": "cpu", "more": ""}), ["--preset", "standard"])
+        values = {"preset": "standard", "spp": 0, "denoiser": "DEFAULT", "device": "cpu", "clamp": 0.0, "more": ""}
+        self.assertEqual(flags.of_panel(values), ["--preset", "standard"])
 
     def test_values_and_further_words(self):
         given = flags.of_panel({"preset": "NONE", "spp": 8, "time_limit": 2.5, "more": "--fog '0.1, 1,1,1'"})
@@ -75,6 +73,10 @@ class Flags(unittest.TestCase):
         for bad in ("--size 4x4", "-o x.png", "'open"):
             with self.assertRaises(flags.BadFlags):
                 flags.further(bad)
+
+    def test_a_window_gets_the_flags_that_it_knows(self):
+        words = ["--time-limit", "2", "--spp", "8", "--fog=1", "--sky", "none"]
+        self.assertEqual(flags.known_of(words, {"spp", "sky"}), ["--spp", "8", "--sky", "none"])
 
     def test_media_have_straight_shadows_unless_chosen(self):
         self.assertEqual(flags.for_media(["--spp", "4"]), ["--spp", "4", "--glass-shadows", "straight"])
@@ -105,7 +107,6 @@ class Running(unittest.TestCase):
         self.wait(started, lambda: False)
         self.assertIsNone(started.failure())
         self.assertEqual(started.progress["spp_done"], 4)
-        self.assertEqual(run.line_of(started.progress), "Rendering 4 of 4 samples")
 
     def test_a_snapshot_and_a_stop_leave_pictures(self):
         started = self.start("--spp", "1000000")
@@ -139,9 +140,8 @@ class Notes(unittest.TestCase):
         notes = report.Notes()
         for _ in range(2):
             notes.add("object 'a'", "hair")
-        self.assertEqual(notes.summary(), "Not carried over: object 'a': hair")
         notes.add("object 'b'", "hair")
-        self.assertIn("1 more", notes.summary())
+        self.assertEqual(len(notes.lines), 2)
 
 
 if __name__ == "__main__":
