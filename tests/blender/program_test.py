@@ -48,11 +48,18 @@ class Finding(unittest.TestCase):
 
 
 class Manifest(unittest.TestCase):
-    def test_the_version_is_the_programs(self):
+    def setUp(self):
         with open(SOURCE / "apps/blender/blender_manifest.toml", "rb") as file:
-            manifest = tomllib.load(file)
+            self.manifest = tomllib.load(file)
+
+    def test_texts_are_as_short_as_blender_demands(self):
+        for text in (self.manifest["tagline"], *self.manifest["permissions"].values()):
+            self.assertLessEqual(len(text), 64)
+            self.assertNotEqual(text[-1], ".")
+
+    def test_the_version_is_the_programs(self):
         said = subprocess.run([PROGRAM, "--version"], capture_output=True, text=True, check=True).stdout
-        self.assertEqual(tuple(map(int, manifest["version"].split("."))), find_program.version_of(said))
+        self.assertEqual(tuple(map(int, self.manifest["version"].split("."))), find_program.version_of(said))
 
 
 class Texts(unittest.TestCase):
