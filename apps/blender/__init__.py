@@ -2,10 +2,10 @@
 
 import bpy
 
-from . import engine, panel, preferences, sequence, view
+from . import engine, main_thread, panel, preferences, sequence, view
 from .exporter_hooks import glTF2ExportUserExtension  # noqa: F401  Blender's exporter looks for it here
 
-PARTS = (preferences, sequence, view, panel)
+PARTS = (main_thread, preferences, sequence, view, panel)
 
 
 def register():

@@ -7,7 +7,7 @@ import time
 
 import bpy
 
-from . import animation, exr, find_program, flags, passes, preferences, report, run, sequence
+from . import animation, exr, find_program, flags, main_thread, passes, preferences, report, run, sequence
 from .export import Unusable, export
 
 POLL = 0.05  # seconds between two looks at the program
@@ -31,6 +31,8 @@ class GatelightEngine(bpy.types.RenderEngine):
             self._render(depsgraph)
         except (Unusable, find_program.NoProgram, flags.BadFlags, exr.BadPicture, OSError) as error:
             self._fail(str(error), depsgraph.view_layer.name)
+        except main_thread.GivenUp:
+            pass
         except KeyboardInterrupt:  # of a Python that runs Blender as a module
             self._fail("the render was interrupted before its picture had begun", depsgraph.view_layer.name)
 
@@ -74,7 +76,7 @@ class GatelightEngine(bpy.types.RenderEngine):
         chosen = flags.of_panel(preferences.values(scene.gatelight))
         self.update_stats("", "Gatelight: exporting the scene")
         frames = list(animation.frames(scene)) if whole else [scene.frame_current]
-        made = export(scene, depsgraph, folder, notes, animated)
+        made = main_thread.run(lambda: export(scene, depsgraph, folder, notes, animated), self.test_break)
         notes.print()
         chosen = flags.for_media(chosen) if made.only_clear_media else chosen
         command = [program, "render", made.path, *made.flags, *chosen, "--exr", "float", "--progress", "json"]
