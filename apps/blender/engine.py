@@ -109,10 +109,10 @@ class GatelightEngine(bpy.types.RenderEngine):
 
     def _wait(self, job, layer, frame, path, summary):
         """Shows the growing picture until it is complete, or until the user has enough of it."""
-        wait, shown = FIRST_SNAPSHOT, None
+        wait, shown, said = FIRST_SNAPSHOT, None, None
         due = time.monotonic() + wait
         while job.is_waiting(frame):
-            self._show_progress(job, frame, summary)
+            said = self._show_progress(job, frame, summary, said)
             if self.test_break():
                 job.stop()
                 return
@@ -126,13 +126,17 @@ class GatelightEngine(bpy.types.RenderEngine):
                 self._fill(job, layer, path, [passes.COMBINED])
             time.sleep(POLL)
 
-    def _show_progress(self, job, frame, summary):
+    def _show_progress(self, job, frame, summary, said):
+        """The status, which on a command line is a line each time it changes."""
         event = job.run.progress
         here = event.get("frame", frame) == frame
         text = run.line_of(event) if here else f"Waiting for frame {frame}"
-        self.update_stats("", " | ".join(part for part in (f"Gatelight: {text}", run.time_left(event), summary) if part))
+        line = " | ".join(part for part in (f"Gatelight: {text}", run.time_left(event), summary) if part)
+        if line != said:
+            self.update_stats("", line)
         if here:
             self.update_progress(min(max(event.get("fraction", 0.0), 0.0), 1.0))
+        return line
 
     def _fill(self, job, layer, path, wanted):
         picture = exr.read(path)

@@ -36,7 +36,7 @@ def export(scene, depsgraph, folder, notes, animated):
         raise Unusable(f"'{view.name}' is no camera: expected one to render from")
     path = os.path.join(folder, "scene.gltf")
     with render_levels(scene), exporter_hooks.Tagging():
-        _call_exporter(scene, depsgraph.view_layer_eval, path, animated)
+        _call_exporter(scene, path, animated)
     document = gltf_document.Document(path)
     shown = {instance.object.original.name_full for instance in depsgraph.object_instances}
     nodes = _tagged(document)
@@ -54,7 +54,7 @@ def export(scene, depsgraph, folder, notes, animated):
     return Exported(path, flags, holdouts, lens, materials.has_only_clear_media(document))
 
 
-def _call_exporter(scene, view_layer, path, animated):
+def _call_exporter(scene, path, animated):
     wanted = {"filepath": path, "export_format": "GLTF_SEPARATE", "use_active_scene": True, "use_renderable": True,
               "export_cameras": True, "export_lights": True, "export_apply": True, "export_yup": True, "export_extras": False,
               "export_gn_mesh": True, "export_current_frame": True, "export_animations": animated, "export_frame_range": True,
@@ -64,7 +64,10 @@ def _call_exporter(scene, view_layer, path, animated):
     if not hasattr(bpy.types, "EXPORT_SCENE_OT_gltf"):
         raise Unusable("Blender's glTF exporter is not there: expected the add-on 'glTF 2.0 format' to be enabled")
     known = bpy.ops.export_scene.gltf.get_rna_type().properties.keys()
-    override = {"scene": scene} if bpy.context.scene != scene else {}
+    windows = bpy.data.window_managers[0].windows  # renders of a command line and timers have none, but the exporter needs one
+    override = {"window": bpy.context.window or windows[0]} if len(windows) else {}
+    if bpy.context.scene != scene:
+        override["scene"] = scene
     try:
         with bpy.context.temp_override(**override):
             bpy.ops.export_scene.gltf(**{name: value for name, value in wanted.items() if name in known})
