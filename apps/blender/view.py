@@ -129,6 +129,12 @@ def _note_change(scene, depsgraph):
         _window.changed = time.monotonic()
 
 
+@bpy.app.handlers.persistent
+def _note_undo(*_):
+    if _window:
+        _window.changed = time.monotonic()
+
+
 def _tick():
     """Blender's timer; None ends it."""
     if not _window or time.monotonic() - _window.relay.asked > GONE:
@@ -167,7 +173,7 @@ class GATELIGHT_OT_view(bpy.types.Operator):
 
 
 HANDLERS = ((bpy.app.handlers.depsgraph_update_post, _note_change), (bpy.app.handlers.frame_change_post, _note_change),
-            (bpy.app.handlers.load_pre, _forget))
+            (bpy.app.handlers.undo_post, _note_undo), (bpy.app.handlers.redo_post, _note_undo), (bpy.app.handlers.load_pre, _forget))
 
 
 def register():
