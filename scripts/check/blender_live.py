@@ -43,7 +43,6 @@ def floor(window):
 def main():
     blender_session.start(sys.argv[1])
     view = sys.modules[f"{blender_session.EXTENSION}.view"]
-    before = set(os.listdir(tempfile.gettempdir()))
     blender_session.set_up("GATELIGHT", 48, 16)
     cube, _ = blender_scenes.stage()
     _, background = blender_scenes.world((0.4, 0.4, 0.4))
@@ -63,7 +62,7 @@ def main():
         time.sleep(0.1)
     print(f"LIVE without a change: {'nothing' if window.relay.replaced == 2 and not window.next else 'exported again'}")
     view.close()
-    left = [name for name in set(os.listdir(tempfile.gettempdir())) - before if name.startswith("gatelight-")]
+    left = [name for name in os.listdir(tempfile.gettempdir()) if name.startswith("gatelight-")]
     print(f"LIVE closed; left behind: {left or 'nothing'}")
     blender_session.end()
 
