@@ -7,8 +7,8 @@ from . import flags
 ENGINE = "GATELIGHT"
 # Panels of other engines that say something to this one too, and general ones that say nothing to it.
 TAKEN = ("DATA_PT_EEVEE_light", "DATA_PT_camera_dof", "DATA_PT_camera_dof_aperture", "EEVEE_MATERIAL_PT_context_material",
-         "EEVEE_MATERIAL_PT_surface", "EEVEE_MATERIAL_PT_volume", "EEVEE_WORLD_PT_surface", "EEVEE_WORLD_PT_volume", "CYCLES_RENDER_PT_passes",
-         "CYCLES_RENDER_PT_passes_data", "CYCLES_RENDER_PT_passes_light", "CYCLES_RENDER_PT_passes_crypto")
+         "EEVEE_MATERIAL_PT_surface", "EEVEE_MATERIAL_PT_volume", "EEVEE_WORLD_PT_surface", "EEVEE_WORLD_PT_volume",
+         "CYCLES_RENDER_PT_passes", "CYCLES_RENDER_PT_passes_data", "CYCLES_RENDER_PT_passes_light", "CYCLES_RENDER_PT_passes_crypto")
 LEFT = ("DATA_PT_light", "DATA_PT_spot", "RENDER_PT_freestyle", "VIEWLAYER_PT_freestyle", "RENDER_PT_gpencil", "RENDER_PT_grease_pencil")
 
 
@@ -92,7 +92,8 @@ class GATELIGHT_PT_visibility(_Panel):
         self.layout.prop(thing, "visible_camera" if thing.type == "LIGHT" else "is_shadow_catcher")
 
 
-CLASSES = (GATELIGHT_OT_from_cycles, GATELIGHT_PT_sampling, GATELIGHT_PT_paths, GATELIGHT_PT_film, GATELIGHT_PT_more, GATELIGHT_PT_visibility)
+CLASSES = (GATELIGHT_OT_from_cycles, GATELIGHT_PT_sampling, GATELIGHT_PT_paths, GATELIGHT_PT_film, GATELIGHT_PT_more,
+           GATELIGHT_PT_visibility)
 
 
 def _share(change):

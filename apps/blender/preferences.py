@@ -74,7 +74,8 @@ def _properties():
         "device": prop.StringProperty(name="Device of the Cache", default="cpu", description=text("device")),
         "threads": whole(name="Threads", min=0, default=0, description=text("threads")),
         "seed": whole(name="Seed", min=0, default=0, description=text("seed")),
-        "more": prop.StringProperty(name="Further Flags", default="", description="Other flags of 'gatelight render', as on a command line"),
+        "more": prop.StringProperty(name="Further Flags", default="",
+                                    description="Other flags of 'gatelight render', as on a command line"),
     }
 
 

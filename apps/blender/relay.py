@@ -26,7 +26,8 @@ RELOAD = b"""
 class _Handler(http.server.BaseHTTPRequestHandler):
     def do_GET(self):
         relay, host = self.server.relay, self.headers.get("Host", "")
-        own = host in (f"{HOST}:{relay.port}", f"localhost:{relay.port}") and self.headers.get("Origin", f"http://{host}") == f"http://{host}"
+        own = host in (f"{HOST}:{relay.port}", f"localhost:{relay.port}")
+        own = own and self.headers.get("Origin", f"http://{host}") == f"http://{host}"
         if not own or not self.path.startswith(relay.path):  # a page elsewhere, or another user of the machine
             self._send(404, [], b"")
             return

@@ -88,8 +88,10 @@ def no_camera(folder):
 
 
 def full_disk(folder):
-    """No file may have more than 24 KiB: enough for the scene, too little for the picture."""
-    resource.setrlimit(resource.RLIMIT_FSIZE, (24 << 10, resource.RLIM_INFINITY))
+    """No file may have more than 256 KiB: enough for the scene, too little for the picture."""
+    bpy.context.scene.render.resolution_x = bpy.context.scene.render.resolution_y = 640
+    bpy.context.scene.gatelight.spp = 1
+    resource.setrlimit(resource.RLIMIT_FSIZE, (256 << 10, resource.RLIM_INFINITY))
 
 
 def killed_child(folder):
@@ -124,7 +126,8 @@ def wrong_flags(folder):
     bpy.context.scene.gatelight.more = "--no-such-flag"
 
 
-CASES = (no_program, old_program, other_program, no_camera, full_disk, killed_child, stopped, path_with_umlauts, linked_library, wrong_flags)
+CASES = (no_program, old_program, other_program, no_camera, full_disk, killed_child, stopped, path_with_umlauts, linked_library,
+         wrong_flags)
 
 
 def main():

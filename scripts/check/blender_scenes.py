@@ -289,7 +289,8 @@ def moving_ball():
 def passes():
     _plain_stage()
     layer = bpy.context.scene.view_layers[0]
-    for name in ("z", "normal", "position", "diffuse_direct", "diffuse_indirect", "diffuse_color", "emit", "environment", "cryptomatte_object"):
+    for name in ("z", "normal", "position", "diffuse_direct", "diffuse_indirect", "diffuse_color", "emit", "environment",
+                 "cryptomatte_object"):
         setattr(layer, f"use_pass_{name}", True)
 
 
