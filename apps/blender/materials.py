@@ -102,9 +102,6 @@ class Surface:
         self.element.pop("emissiveTexture", None)
         self._extend("emissive_strength", {"emissiveStrength": strength})
 
-    def _holdout(self, node):
-        self.notes.add(self.what, "a holdout of a material; objects can be holdouts")
-
     # Inside.
     def _subsurface(self, node):
         color, weight = self._color(node, "Base Color"), value(node, "Subsurface Weight")
