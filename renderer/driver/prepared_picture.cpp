@@ -231,12 +231,22 @@ void PreparedPicture::choose_by_paths() {
   build_world(world_options());
 }
 
-WorldOptions PreparedPicture::world_options() const {
+AccelOptions PreparedPicture::accel_options() const {
+  const AccelOptions& built = built_.acceleration;
+  AccelOptions wanted{threads, options.isa, bvh_budget};
   // Until it is chosen, a world that is there serves.
-  const bool watertight = options.watertight == Watertight::automatic
-                              ? world && built_.acceleration.watertight
-                              : options.watertight == Watertight::on;
-  return {options.environment,   options.light_selection, {threads, options.isa, bvh_budget, watertight},
+  wanted.watertight = options.watertight == Watertight::automatic ? world && built.watertight
+                                                                  : options.watertight == Watertight::on;
+  // Splits save as much time for each sample as they take for each triangle (surface/README.md).
+  const double samples = static_cast<double>(region.width()) * region.height() * options.spp;
+  wanted.spatial_splits = world && built.watertight == wanted.watertight
+                              ? built.spatial_splits
+                              : samples > static_cast<double>(scene::count_triangles(scene));
+  return wanted;
+}
+
+WorldOptions PreparedPicture::world_options() const {
+  return {options.environment,   options.light_selection, accel_options(),
           options.glass_shadows, options.light_groups,    options.background};
 }
 

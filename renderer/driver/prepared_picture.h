@@ -88,6 +88,7 @@ struct PreparedPicture {
   void find_noisy_guides();
   /// Fills in the statistics of the world.
   void describe();
+  AccelOptions accel_options() const;
   WorldOptions world_options() const;
   /// Applies RenderOptions::choose_integrator, for the first view.
   void choose_by_paths();

@@ -8,12 +8,13 @@ namespace {
 
 constexpr std::size_t kNonFiniteKept = 16;
 
-/// One sequence on the screen needs to know how many samples it has.
+/// One sequence on the screen needs to know how many samples it has. It does not help pictures with a cache
+/// (renderer/sampling/README.md).
 Sampler sampler_of(const PixelSample& sample, const RenderOptions& options) {
   const auto& [pixel, number] = sample;
   const bool spp_ends_it = options.spp > 0 && options.spp < kUnlimitedSpp &&
                            !(options.time_limit_seconds > 0.0) && !(options.max_error > 0.0);
-  if (options.sampler == SamplerKind::screen && spp_ends_it)
+  if (options.sampler == SamplerKind::screen && spp_ends_it && !uses_cache(options.integrator))
     return Sampler::of_screen(options.seed, morton(pixel), static_cast<std::uint32_t>(options.spp), number);
   return {options.sampler, options.seed, static_cast<std::uint32_t>(pixel.x),
           static_cast<std::uint32_t>(pixel.y), number};

@@ -144,6 +144,7 @@ struct Accel::State {
   std::atomic<bool> refused{false};
   std::string first_error;
   bool watertight = true;
+  bool spatial_splits = true;
   RTCDevice device = nullptr;
   RTCScene still = nullptr;
   RTCScene moving = nullptr;  ///< null: nothing moves
@@ -166,7 +167,8 @@ struct Accel::State {
 
   RTCScene new_scene() const {
     RTCScene s = rtcNewScene(device);
-    rtcSetSceneBuildQuality(s, RTC_BUILD_QUALITY_HIGH);
+    const bool high = watertight || spatial_splits;
+    rtcSetSceneBuildQuality(s, high ? RTC_BUILD_QUALITY_HIGH : RTC_BUILD_QUALITY_MEDIUM);
     // Without this flag rays slip through the shared edges of triangles, and a closed room leaks light.
     rtcSetSceneFlags(s, watertight ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE);
     return s;
@@ -305,6 +307,7 @@ Accel::Accel(const scene::Scene& scene, const Coverage& coverage, const AccelOpt
   rtcSetDeviceMemoryMonitorFunction(state.device, State::monitor, &state);
 
   state.watertight = options.watertight;
+  state.spatial_splits = options.spatial_splits;
   state.build_still(scene, coverage);
   state.build_moving(scene, coverage);
   check(scene);

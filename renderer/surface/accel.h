@@ -19,6 +19,7 @@ struct AccelOptions {
   std::string isa = "auto";            ///< auto, scalar (SSE2), avx2 or avx512
   std::size_t memory_limit_bytes = 0;  ///< of Embree's own allocations; 0 means no limit
   bool watertight = true;              ///< no ray slips between triangles that share an edge
+  bool spatial_splits = true;          ///< unless it is watertight: a longer build for faster rays
 
   bool operator==(const AccelOptions&) const = default;
 };
