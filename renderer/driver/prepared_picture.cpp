@@ -156,6 +156,7 @@ void PreparedPicture::choose_options(const RenderOptions& chosen) {
   scale = ScaleDown(options_of_picture.denoise.supersampling, options_of_picture.filter,
                     options_of_picture.filter_width);
   seed_ = options.seed;
+  chooses_watertight_ = options.watertight == Watertight::automatic;
   bvh_budget = checked_budget(scene, options_of_picture);
 }
 
@@ -302,6 +303,13 @@ void PreparedPicture::find_noisy_guides() {
   if (!filters && !has(options.aovs, Aov::denoising)) return;
   PixelRect r = arena.execute([&] { return renderer::noisy_guides(*world, camera, region, options); });
   noisy_guides = {r.x0 - region.x0, r.y0 - region.y0, r.x1 - region.x0, r.y1 - region.y0};
+}
+
+void PreparedPicture::change_view(const CameraOptions& chosen) {
+  set_camera(chosen);
+  if (!chooses_watertight_) return;
+  options.watertight = options_of_picture.watertight = Watertight::automatic;
+  choose_by_paths();
 }
 
 Camera PreparedPicture::camera_of_size(int width, int height) const {

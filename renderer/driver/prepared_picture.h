@@ -33,6 +33,8 @@ struct PreparedPicture {
   void set_options(const RenderOptions& chosen);
   /// Changes the view, and the warnings about it. Builds the lights again where the soft sky comes or goes.
   void set_camera(const CameraOptions& chosen);
+  /// The same, and chooses again what Watertight::automatic left to the view.
+  void change_view(const CameraOptions& chosen);
   /// The scene shows another time.
   void scene_moved(const CameraOptions& camera);
   /// The picture is a frame of an animation, with random numbers of its own.
@@ -90,11 +92,12 @@ struct PreparedPicture {
   void describe();
   AccelOptions accel_options() const;
   WorldOptions world_options() const;
-  /// Applies RenderOptions::choose_integrator, for the first view.
+  /// Applies RenderOptions::choose_integrator, for the first view, and Watertight::automatic.
   void choose_by_paths();
 
   WorldOptions built_;      ///< of the present world
   std::uint32_t seed_ = 0;  ///< of the whole animation
+  bool chooses_watertight_ = false;
 };
 
 }  // namespace gatelight::renderer

@@ -40,8 +40,9 @@ Renderer::Renderer(Renderer&&) noexcept = default;
 
 void Renderer::set_camera(const CameraOptions& camera) {
   Implementation& self = *implementation_;
-  self.picture.set_camera(camera);
+  self.picture.change_view(camera);
   self.statistics.warnings = self.picture.statistics.warnings;
+  self.statistics.light_behind_walls = self.picture.statistics.light_behind_walls;
 }
 
 std::optional<bool> Renderer::soft_sky() const {

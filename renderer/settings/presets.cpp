@@ -93,6 +93,7 @@ void apply_preset_of_frames(CachePreset preset, RenderOptions& options) {
   apply_preset(preset, options);
   const bool standard = preset == CachePreset::standard;
   if (!standard && preset != CachePreset::preview && preset != CachePreset::final) return;
+  options.watertight = Watertight::on;  // a camera may go into a room that is closed
   for (int* const samples : {&options.spp, &options.spp_of_paths}) *samples = (3 * *samples + 3) / 4;
   if (standard) options.denoise.prefilter = Prefilter::fast;
 }

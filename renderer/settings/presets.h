@@ -22,7 +22,7 @@ enum class CachePreset : std::uint8_t {
 void apply_preset(CachePreset preset, RenderOptions& options);
 
 /// The same for frames of an animation, which share the cache and samples: finished pictures have three
-/// quarters of the samples, and `standard` does not prefilter the guides.
+/// quarters of the samples, and `standard` does not prefilter the guides. Walls are watertight for all views.
 void apply_preset_of_frames(CachePreset preset, RenderOptions& options);
 
 }  // namespace gatelight::renderer

@@ -109,5 +109,19 @@ TEST(SceneChoices, WallsAreWatertightIfLightBehindThemIsBright) {
   EXPECT_FALSE(sunlit(closed, 1e6f, Watertight::on).statistics().light_behind_walls);
 }
 
+TEST(SceneChoices, EachViewChoosesItsWalls) {
+  const scene::Scene closed = white_room();
+  Renderer room = sunlit(closed, 1e6f, Watertight::automatic);
+  const Picture inside = room.render();
+  CameraOptions camera;
+  camera.look_at = LookAt{{0, 0, 9}, {0, 0, -1}, {0, 1, 0}};
+  room.set_camera(camera);
+  EXPECT_EQ(room.chosen().watertight, Watertight::off) << "the sky shines onto the walls";
+  camera.look_at = LookAt{{0, 0, 0}, {0, 0, -1}, {0, 1, 0}};
+  room.set_camera(camera);
+  EXPECT_EQ(room.chosen().watertight, Watertight::on);
+  EXPECT_EQ(room.render().layers.front().values, inside.layers.front().values);
+}
+
 }  // namespace
 }  // namespace gatelight::renderer
