@@ -253,7 +253,8 @@ std::vector<Option> picture_options(RenderOptions& options) {
   picture.add(choice(
       "sampler", sampler,
       "A Sobol sequence in each pixel; one for all pixels, whose noise is easier to denoise (screen, "
-      "default of preview, standard and final, without a time or error limit); or independent numbers"));
+      "default of preview, standard and final; only without a cache, a time limit and an error limit); or "
+      "independent numbers"));
   picture.add(choice("filter", filter, "Pixel filter"), {.of_denoise = true});
   picture.add(number("filter-width", filter_width, {0.0, 32.0}, "PIXELS",
                      "Full width of the pixel filter; 0: the filter's default"),

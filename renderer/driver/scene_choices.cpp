@@ -16,16 +16,9 @@ constexpr std::size_t kPaths = 8192, kTogether = 256;
 
 /// Sums over paths.
 struct PathSums {
-  std::uint64_t bounces = 0, walk = 0, hits = 0;
+  RayCounts rays;
+  std::size_t hits = 0;
   double light = 0.0, unshadowed = 0.0;
-
-  void add(const PathSums& other) {
-    bounces += other.bounces;
-    walk += other.walk;
-    hits += other.hits;
-    light += other.light;
-    unshadowed += other.unshadowed;
-  }
 };
 
 /// Luminance of a white surface at `p` by one light sample, from any side.
@@ -55,11 +48,8 @@ PilotPaths trace_pilot_paths(const World& world, const Camera& camera, const Pix
     std::vector<SampleResult> results(samples.size());
     std::vector<FirstHit> first_hits(samples.size());
     PathIntegrator::Scratch scratch;
-    RayCounts rays;
-    integrator.trace(samples, results, first_hits, rays, scratch);
     PathSums& sums = parts[part];
-    sums.bounces = rays.bounce - rays.walk;
-    sums.walk = rays.walk;
+    integrator.trace(samples, results, first_hits, sums.rays, scratch);
     for (std::size_t i = 0; i < samples.size(); ++i) {
       if (!first_hits[i].hit || !results[i].radiance.isFinite().all()) continue;
       ++sums.hits;
@@ -68,16 +58,21 @@ PilotPaths trace_pilot_paths(const World& world, const Camera& camera, const Pix
     }
   });
   PathSums all;
-  for (const PathSums& part : parts) all.add(part);
-  const auto hits = static_cast<double>(std::max<std::uint64_t>(all.hits, 1));
-  return {static_cast<double>(all.bounces) / kPaths, static_cast<double>(all.walk) / kPaths, all.light / hits,
-          all.unshadowed / hits};
+  for (const PathSums& part : parts) {
+    all.rays.add(part.rays);
+    all.hits += part.hits;
+    all.light += part.light;
+    all.unshadowed += part.unshadowed;
+  }
+  const auto hits = static_cast<double>(std::max<std::size_t>(all.hits, 1));
+  return {static_cast<double>(all.rays.bounce - all.rays.walk) / kPaths,
+          static_cast<double>(all.rays.walk) / kPaths, all.light / hits, all.unshadowed / hits};
 }
 
 RenderOptions with_choices(RenderOptions options, const PilotPaths& paths) {
   if (options.choose_integrator) {
-    const bool cached = paths.bounces >= kBouncesForCache + paths.walk ||
-                        !options.cache.cache_in.empty() || !options.cache.cache_out.empty();
+    const bool cached = paths.bounces >= kBouncesForCache + paths.walk || !options.cache.cache_in.empty() ||
+                        !options.cache.cache_out.empty();
     use_integrator(options, cached ? options.integrator : Integrator::path);
   }
   if (options.watertight == Watertight::automatic) {
