@@ -55,8 +55,8 @@ enum class Prefilter : std::uint8_t {
 enum class MatteKind : std::uint8_t { object, material };
 
 enum class SamplerKind : std::uint8_t {
-  sobol,  ///< Owen-scrambled Sobol points, padded: every pair of dimensions is a separate (0,2)-sequence
-  screen,       ///< one such sequence for the samples of all pixels, where spp ends the picture
+  sobol,   ///< Owen-scrambled Sobol points, padded: every pair of dimensions is a separate (0,2)-sequence
+  screen,  ///< one such sequence for all pixels, of a picture without a cache that spp ends
   independent,  ///< independent numbers, hashed from the key
 };
 
