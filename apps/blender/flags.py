@@ -5,7 +5,7 @@ import shlex
 # Properties of the panel that are flags; these values leave the choice to the preset.
 NAMES = ("preset", "integrator", "denoiser", "glass_shadows", "spp", "time_limit", "max_error", "max_depth", "max_transmission_depth",
          "clamp", "threads", "seed", "device")
-NOT_GIVEN = ("", 0, "NONE", "DEFAULT", "cpu")
+NOT_GIVEN = ("", 0, "NONE", "DEFAULT")
 
 
 class BadFlags(Exception):

@@ -183,7 +183,7 @@ def at_output(owner, name):
     """The node at an output of a material or a world; None: there is none."""
     if not owner.use_nodes or not owner.node_tree:
         return None
-    output = owner.node_tree.get_output_node("CYCLES") or material.node_tree.get_output_node("ALL")
+    output = owner.node_tree.get_output_node("CYCLES")
     links = output.inputs[name].links if output else ()
     return links[0].from_node if links else None
 

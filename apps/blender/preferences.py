@@ -71,7 +71,7 @@ def _properties():
         "clamp": decimal(name="Clamp", min=0.0, default=0.0, description=text("clamp")),
         "glass_shadows": choice(name="Glass Shadows", default="DEFAULT", description=text("glass-shadows"),
                                 items=_choices("glass-shadows", "refract", "straight")),
-        "device": prop.StringProperty(name="Device of the Cache", default="cpu", description=text("device")),
+        "device": prop.StringProperty(name="Device of the Cache", default="", description=text("device")),
         "threads": whole(name="Threads", min=0, default=0, description=text("threads")),
         "seed": whole(name="Seed", min=0, default=0, description=text("seed")),
         "more": prop.StringProperty(name="Further Flags", default="",

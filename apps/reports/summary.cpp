@@ -103,9 +103,11 @@ std::string summary(const RenderSettings& settings, const RunReport& report) {
   text += fmt::format("rays      {}, {:.2f} million/s\n", format_count(rays),
                       per_second(rays, ray_seconds(s)) * 1e-6);
   if (s.bounces_of_paths) {
+    const std::string steps =
+        s.steps_in_media > 0.05 ? fmt::format(" and {:.1f} steps in media", s.steps_in_media) : "";
     text += fmt::format(
-        "integrator {}, chosen because light paths have {:.1f} bounces; --integrator {} {}\n",
-        enum_name(settings.render.integrator), *s.bounces_of_paths,
+        "integrator {}, chosen because light paths have {:.1f} bounces{}; --integrator {} {}\n",
+        enum_name(settings.render.integrator), *s.bounces_of_paths, steps,
         renderer::uses_cache(settings.render.integrator) ? "path" : "nrc",
         renderer::uses_cache(settings.render.integrator) ? "renders without a cache" : "uses a cache");
   }

@@ -224,7 +224,10 @@ void PreparedPicture::describe() {
 void PreparedPicture::choose_by_paths() {
   if (!options.choose_integrator && options.watertight != Watertight::automatic) return;
   const PilotPaths paths = arena.execute([&] { return trace_pilot_paths(*world, camera, region, options); });
-  if (options.choose_integrator) statistics.bounces_of_paths = paths.bounces;
+  if (options.choose_integrator) {
+    statistics.bounces_of_paths = paths.bounces;
+    statistics.steps_in_media = paths.walk;
+  }
   if (options.watertight == Watertight::automatic)
     statistics.light_behind_walls = paths.unshadowed / std::max(paths.light, 1e-30);
   options_of_picture = with_choices(options_of_picture, paths);

@@ -122,6 +122,7 @@ struct RenderStatistics {
   std::string isa;                         ///< that Embree chose
   std::vector<std::string> warnings;       ///< about input that could not be used as given
   std::optional<double> bounces_of_paths;  ///< by which the integrator was chosen, if it was
+  double steps_in_media = 0.0;             ///< of these paths, between events in a medium
   /// By which Watertight::automatic was chosen, if it was: the light if nothing cast a shadow, over the
   /// picture's.
   std::optional<double> light_behind_walls;

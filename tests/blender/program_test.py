@@ -71,7 +71,7 @@ class Texts(unittest.TestCase):
 
 class Flags(unittest.TestCase):
     def test_zero_leaves_the_choice_to_the_preset(self):
-        values = {"preset": "standard", "spp": 0, "denoiser": "DEFAULT", "device": "cpu", "clamp": 0.0, "more": ""}
+        values = {"preset": "standard", "spp": 0, "denoiser": "DEFAULT", "device": "", "clamp": 0.0, "more": ""}
         self.assertEqual(flags.of_panel(values), ["--preset", "standard"])
 
     def test_values_and_further_words(self):
