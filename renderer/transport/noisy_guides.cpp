@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kStep = 2;  // pixels between rays
 
-/// Whether one of these rays meets a surface that is seen through or blended.
+/// Whether one of these rays meets a surface that is seen through, by its material or by its alpha.
 bool meets_see_through(const World& world, const std::vector<CameraSample>& samples) {
   std::vector<Ray> rays;
   for (const CameraSample& sample : samples) rays.push_back(sample.ray());
@@ -21,7 +21,7 @@ bool meets_see_through(const World& world, const std::vector<CameraSample>& samp
   for (std::size_t i = 0; i < rays.size(); ++i) {
     const Hit& hit = hits[i];
     if (!hit) continue;
-    if (world.scene.material_of(world.scene.instances[hit.instance]).alpha_mode == scene::AlphaMode::blend)
+    if (world.scene.material_of(world.scene.instances[hit.instance]).alpha_mode != scene::AlphaMode::opaque)
       return true;
     const RayCone& cone = samples[i].camera_ray.cone;
     const SurfaceInteraction m(world, rays[i], hit, cone.width + cone.spread * hit.t, 0.5f);

@@ -9,8 +9,8 @@
 namespace gatelight::renderer {
 
 /// The part of the region with all pixels whose samples may have different guide surfaces for a reason other
-/// than an edge: mirrors and clear glass, which reflect and transmit at random, and blended surfaces. With a
-/// lens, an open shutter or fog it is the region; without such pixels it is empty. Traces one ray for every
+/// than an edge: mirrors and clear glass, which reflect and transmit at random, and surfaces with alpha. With
+/// a lens, an open shutter or fog it is the region; without such pixels it is empty. Traces one ray for every
 /// four pixels. Runs in the caller's arena.
 PixelRect noisy_guides(const World& world, const Camera& camera, const PixelRect& region,
                        const RenderOptions& options);

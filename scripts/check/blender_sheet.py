@@ -45,7 +45,7 @@ def main():
     image = bpy.data.images.new("sheet", width, height, float_buffer=True)
     image.pixels.foreach_set(numpy.concatenate([pixels[::-1], numpy.ones((height, width, 1), numpy.float32)], axis=-1).reshape(-1))
     scene = bpy.context.scene
-    scene.view_settings.view_transform = "Standard"
+    scene.view_settings.view_transform = "AgX"
     scene.render.image_settings.file_format, scene.render.image_settings.quality = "JPEG", 88
     image.save_render(path, scene=scene)
     blender_session.end()
