@@ -49,7 +49,8 @@ TEST(NoisyGuides, AreAroundWhatIsSeenThrough) {
   // The pane is within 53..96 x 26..62, with a tile around it.
   for (const scene::Material& material : {glass, veil, lace}) {
     const PixelRect rect = found(wall_with(material));
-    EXPECT_TRUE(rect.x0 <= 53 && rect.y0 <= 62 && rect.x1 >= 90 && rect.y1 >= 62) << rect.x0 << " " << rect.y1;
+    EXPECT_TRUE(rect.x0 <= 53 && rect.y0 <= 62 && rect.x1 >= 90 && rect.y1 >= 62)
+        << rect.x0 << " " << rect.y1;
     EXPECT_TRUE(rect.x1 <= 128 && rect.y1 <= 96) << rect.x1 << " " << rect.y1;
     EXPECT_TRUE(is_empty(found(wall_with(material), {160, 100, 256, 192})));
   }
