@@ -1,4 +1,5 @@
-"""Blender's Cycles beside Gatelight: the arguments of both comparisons, and runs of cycles_render.py in Blender."""
+"""Blender's Cycles beside Gatelight: the arguments of both comparisons, and runs of cycles_render.py in Blender. A file
+cycles.py beside that script would hide the add-on of this name."""
 
 import json
 import os
