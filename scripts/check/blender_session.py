@@ -3,6 +3,7 @@
 import os
 import pathlib
 import shutil
+import signal
 import sys
 import tempfile
 
@@ -50,6 +51,7 @@ def set_up(engine, size, samples):
 
 
 def start(program):
+    signal.signal(signal.SIGINT, signal.default_int_handler)  # a shell starts background jobs with it ignored
     bpy.ops.wm.read_factory_settings(use_empty=True)
     enable(program)
 
