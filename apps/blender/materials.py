@@ -1,5 +1,7 @@
 """What Blender's materials have and its glTF exporter leaves out, and what neither can carry."""
 
+import math
+
 from . import media
 
 THICK = 0.01  # any thickness: rays measure the body
@@ -35,9 +37,7 @@ class Surface:
 
     # Surfaces, by the type of their node.
     def _bsdf_principled(self, node):
-        weight = value(node, "Transmission Weight")
-        if weight > 0.0 or node.inputs["Transmission Weight"].is_linked:
-            self._extend("volume", {"thicknessFactor": THICK})
+        self._transmission(node)
         if value(node, "Subsurface Weight") > 0.0:
             self._subsurface(node)
         for name in LOST:
@@ -103,6 +103,20 @@ class Surface:
         self._extend("emissive_strength", {"emissiveStrength": strength})
 
     # Inside.
+    def _transmission(self, node):
+        """Cycles tints light by the root of the base colour at each boundary, glTF by the base colour, which is also the colour of the
+        diffuse share: the mean by weight keeps the sum of both."""
+        weight, color = node.inputs["Transmission Weight"], node.inputs["Base Color"]
+        if weight.default_value <= 0.0 and not weight.is_linked:
+            return
+        self._extend("volume", {"thicknessFactor": THICK})
+        if weight.is_linked or color.is_linked:
+            self.notes.add(self.what, "the brighter colour of transmitted light: its colour or weight is a texture")
+            return
+        tint = self.element.setdefault("pbrMetallicRoughness", {}).setdefault("baseColorFactor", [1.0, 1.0, 1.0, 1.0])
+        share = weight.default_value
+        tint[:3] = [(1.0 - share) * c + share * math.sqrt(c) for c in tint[:3]]
+
     def _subsurface(self, node):
         color, weight = self._color(node, "Base Color"), value(node, "Subsurface Weight")
         radius = [value(node, "Subsurface Scale") * r for r in value(node, "Subsurface Radius")]

@@ -203,8 +203,8 @@ def principled_coat():
 
 
 def principled_glass():
-    _lit_stage(principled("clear", (1.0, 1.0, 1.0), Transmission_Weight=1.0, Roughness=0.0), principled(
-        "frost", (0.9, 1.0, 0.9), Transmission_Weight=1.0, Roughness=0.3))
+    _lit_stage(principled("green", (0.3, 0.7, 0.3), Transmission_Weight=1.0, Roughness=0.0), principled(
+        "frost", (0.1, 0.3, 0.7), Transmission_Weight=0.75, Roughness=0.3))
 
 
 def principled_subsurface():
