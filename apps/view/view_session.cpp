@@ -16,6 +16,10 @@ constexpr double kGone = 30.0;
 /// Seconds from the begin of a final picture to the first look at it, and the factor of the next ones.
 constexpr double kFirstLook = 1.5, kNextLook = 2.0;
 
+Stage next_stage(Stage reached) {
+  return static_cast<Stage>(static_cast<int>(reached) + 1);
+}
+
 }  // namespace
 
 ViewSession::ViewSession(const std::string& scene, std::vector<std::string> words)
@@ -104,7 +108,7 @@ std::optional<ViewSession::Task> ViewSession::next_task() {
   work_.wait(lock, find);
   if (stopped_) return std::nullopt;
   Viewer& of = next->second;
-  const auto stage = static_cast<Stage>(static_cast<int>(of.reached) + 1);
+  const Stage stage = next_stage(of.reached);
   of.status.stage = stage;
   of.status.progress = {};
   return Task{next->first, stage, of.revision, changes_, of.settings, of.layer, of.changed};
@@ -130,7 +134,7 @@ bool ViewSession::is_overtaken(const Task& task) {
   if (stopped_) return true;
   for (const auto& [name, of] : viewers_) {
     if (name == task.viewer && of.revision != task.revision) return true;
-    if (is_due(of) && of.reached < Stage::preview && task.stage == Stage::final) return true;
+    if (is_due(of) && next_stage(of.reached) < task.stage) return true;
   }
   return false;
 }
