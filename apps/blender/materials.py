@@ -84,8 +84,7 @@ class Surface:
             return
         other = sides[1 - clear]
         getattr(self, "_" + other.type.lower(), self._unknown)(other)
-        color = self.element.setdefault("pbrMetallicRoughness", {}).setdefault("baseColorFactor", [1.0, 1.0, 1.0, 1.0])
-        color[3] = factor.default_value if clear == 0 else 1.0 - factor.default_value
+        self._base_color()[3] = factor.default_value if clear == 0 else 1.0 - factor.default_value
         self.element["alphaMode"] = "BLEND"
 
     def _unknown(self, node):
@@ -113,8 +112,7 @@ class Surface:
         if weight.is_linked or color.is_linked:
             self.notes.add(self.what, "the brighter colour of transmitted light: its colour or weight is a texture")
             return
-        tint = self.element.setdefault("pbrMetallicRoughness", {}).setdefault("baseColorFactor", [1.0, 1.0, 1.0, 1.0])
-        share = weight.default_value
+        tint, share = self._base_color(), weight.default_value
         tint[:3] = [(1.0 - share) * c + share * math.sqrt(c) for c in tint[:3]]
 
     def _subsurface(self, node):
@@ -150,6 +148,10 @@ class Surface:
         self._extend("transmission", {"transmissionFactor": 1.0})
         self._extend("ior", {"ior": 1.0})
         self._extend("specular", {"specularFactor": 0.0})
+
+    def _base_color(self):
+        """The factor in the document, with its alpha, to be changed."""
+        return self.element.setdefault("pbrMetallicRoughness", {}).setdefault("baseColorFactor", [1.0, 1.0, 1.0, 1.0])
 
     def _color(self, node, name="Color"):
         if name not in node.inputs:
