@@ -18,10 +18,11 @@ namespace {
 using Corners = std::array<std::array<float, 3>, 3>;
 
 /// The place of a triangle: its corners in ascending order, and the mesh in whose space they are, or -1 for
-/// the world.
+/// the world. Of triangles that different rays see, none can stand for another.
 struct Place {
   Corners corners;
   int space;
+  Visibility visibility;
 
   bool operator==(const Place&) const = default;
 };
@@ -109,7 +110,7 @@ class Separator {
     const Instance* const instance =
         number == kShared ? nullptr : &scene_.instances[static_cast<std::size_t>(number)];
     for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-      Place place{{}, instance ? -1 : m};
+      Place place{{}, instance ? -1 : m, instance ? instance->visibility : Visibility()};
       bool passes = true;
       for (std::size_t c = 0; c < 3 && passes; ++c) {
         Vec3 p = mesh.positions[mesh.triangles[t][c]];

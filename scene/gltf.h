@@ -10,8 +10,10 @@
 
 #include "base/errors.h"
 #include "scene/light_adjustments.h"
+#include "scene/light_links.h"
 #include "scene/light_profiles.h"
 #include "scene/scene.h"
+#include "scene/visibility_rules.h"
 
 namespace gatelight::scene {
 
@@ -39,10 +41,12 @@ struct LoadOptions {
   std::vector<std::string> ignore_required;  ///< extensions that the file may require although unsupported
   bool show_hidden = false;                  ///< show the nodes that KHR_node_visibility hides
   BackFaces back_faces = BackFaces::show;
-  std::vector<LightAdjustment> lights;  ///< applied to the loaded scene in this order
-  std::vector<LightProfile> profiles;   ///< likewise
-  bool bake_transforms = true;          ///< see scene/bake.h; if false, every instance stays an instance
-  int threads = 0;                      ///< 0: as many as the machine and the control group allow
+  std::vector<LightAdjustment> lights;     ///< applied to the loaded scene in this order
+  std::vector<LightProfile> profiles;      ///< likewise
+  std::vector<VisibilityRule> visibility;  ///< likewise
+  std::vector<LightLinkRule> light_links;  ///< likewise
+  bool bake_transforms = true;             ///< see scene/bake.h; if false, every instance stays an instance
+  int threads = 0;                         ///< 0: as many as the machine and the control group allow
 };
 
 /// A scene farther from the file's origin than this many times its radius is moved to its centre, in double

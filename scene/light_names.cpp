@@ -3,14 +3,13 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <vector>
 
 #include "base/nearest_word.h"
 
 namespace gatelight::scene {
-namespace {
 
-/// "lights 'a', 'b'"; at most kMax names, which fit into a line.
 std::string list_names(const char* what, const std::set<std::string>& names) {
   constexpr std::size_t kMax = 24;
   std::vector<std::string> quoted;
@@ -21,11 +20,15 @@ std::string list_names(const char* what, const std::set<std::string>& names) {
   return fmt::format("{} {}", what, fmt::join(quoted, ", "));
 }
 
-}  // namespace
-
 bool fits_light_name(const std::string& wanted, const std::string& name) {
   if (wanted.empty() || wanted.back() != '*') return wanted == name;
   return name.compare(0, wanted.size() - 1, wanted, 0, wanted.size() - 1) == 0;
+}
+
+bool may_emit(const Scene& scene, const Material& material) {
+  const auto& dark = scene.dark_lights;
+  return material.emits() || !scene.animations.empty() ||
+         std::find(dark.begin(), dark.end(), material.name) != dark.end();
 }
 
 LightNames::LightNames(const Scene& scene) : materials(scene.dark_lights.begin(), scene.dark_lights.end()) {

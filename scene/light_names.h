@@ -12,6 +12,12 @@ namespace gatelight::scene {
 /// Whether a light's name is the wanted one, whose '*' at its end stands for any further letters.
 bool fits_light_name(const std::string& wanted, const std::string& name);
 
+/// "lights 'a', 'b'"; at most as many names as fit into a line.
+std::string list_names(const char* what, const std::set<std::string>& names);
+
+/// Whether it emits, or would without adjust_lights(), or may at another time.
+bool may_emit(const Scene& scene, const Material& material);
+
 /// The names of punctual lights and of emissive materials.
 struct LightNames {
   std::set<std::string> lights;

@@ -13,6 +13,7 @@
 #include "base/math.h"
 #include "base/padded_vector.h"
 #include "scene/ies_profile.h"
+#include "scene/visibility.h"
 
 namespace gatelight::scene {
 
@@ -156,6 +157,8 @@ struct Instance {
   /// Where dielectric bodies overlap, the one with the highest priority fills the space
   /// (scene/nested_volumes.h).
   float dielectric_priority = 0.0f;
+  Visibility visibility;
+  LightLink link;  ///< of its emission
 };
 
 enum class LightType : std::uint8_t { directional, point, spot };
@@ -175,6 +178,8 @@ struct PunctualLight {
   /// the profile and `side` its x axis (world, unit, perpendicular).
   std::shared_ptr<const IesProfile> profile;
   Vec3 side{1.0f, 0.0f, 0.0f};
+  RayKinds rays = kAllRays;  ///< only kBounceRays matter: light that these kinds of rays would find
+  LightLink link;
 };
 
 /// EXT_lights_image_based: infinitely distant light, as the six faces of a cube map.
@@ -257,6 +262,11 @@ struct Scene {
   std::vector<Instance> instances;
   std::vector<PunctualLight> lights;
   std::optional<ImageBasedLight> image_light;
+  /// Who sees the environment and the sky, whether they are the file's or not: camera rays see them as the
+  /// background, bounces and shadow rays as light.
+  RayKinds environment_rays = kAllRays;
+  LightLink environment_link;
+  std::vector<ObjectSet> object_sets;
   std::vector<std::string> dark_lights;  ///< names of emissive materials that adjust_lights() made black
   std::vector<Camera> cameras;
   std::vector<std::string> variants;  ///< names of KHR_materials_variants

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <fstream>
 #include <span>
@@ -90,8 +91,9 @@ void add_material(DigestRecord& record, const scene::Material& material) {
 }
 
 void add_light(DigestRecord& record, const scene::PunctualLight& light) {
-  const auto& [name, type, intensity, position, direction, range, cos_inner, cos_outer, profile, side] =
-      light;
+  // add_links() adds the last two.
+  const auto& [name, type, intensity, position, direction, range, cos_inner, cos_outer, profile, side, rays,
+               link] = light;
   record.add(type);
   add_numbers(record, intensity);
   add_numbers(record, position);
@@ -100,6 +102,46 @@ void add_light(DigestRecord& record, const scene::PunctualLight& light) {
   if (!profile) return;
   record.add(digest_of(std::as_bytes(std::span(profile->values()))));
   add_numbers(record, side);
+}
+
+/// Adds nothing where all rays see all objects, so that such scenes keep the fingerprints of earlier
+/// versions.
+void add_visibility(DigestRecord& record, const scene::Scene& scene) {
+  const auto is_plain = [](const scene::Instance& i) { return i.visibility == scene::Visibility(); };
+  if (std::all_of(scene.instances.begin(), scene.instances.end(), is_plain)) return;
+  for (const scene::Instance& instance : scene.instances) {
+    const auto& [rays, holdout, shadow_catcher] = instance.visibility;
+    record.add(rays);
+    record.add(holdout);
+    record.add(shadow_catcher);
+  }
+}
+
+/// Adds nothing where all lights light all objects for all rays.
+void add_links(DigestRecord& record, const scene::Scene& scene) {
+  DigestRecord links;
+  bool plain = true;
+  const auto add = [&](const scene::LightLink& link) {
+    links.add(link.receivers);
+    links.add(link.blockers);
+    plain &= !link.any();
+  };
+  const auto add_rays = [&](scene::RayKinds rays) {
+    links.add(rays);
+    plain &= rays == scene::kAllRays;
+  };
+  for (const scene::PunctualLight& light : scene.lights) {
+    add_rays(light.rays);
+    add(light.link);
+  }
+  for (const scene::Instance& instance : scene.instances) add(instance.link);
+  add_rays(scene.environment_rays);
+  add(scene.environment_link);
+  for (const scene::ObjectSet& set : scene.object_sets) {
+    add_array(links, set.instances);
+    links.add(set.fog);
+  }
+  if (!plain) record.add(links.digest());
 }
 
 Digest digest_file(const std::string& path) {
@@ -195,6 +237,7 @@ SceneFingerprint compute_scene_fingerprint(const scene::Scene& scene, const Envi
     materials.add(scene.meshes[i].material);
   }
   for (const scene::Instance& instance : scene.instances) add_instance(geometry, instance);
+  add_visibility(geometry, scene);
   materials.add(std::uint64_t{scene.materials.size()});
   for (const scene::Material& material : scene.materials) add_material(materials, material);
   materials.add(std::uint64_t{scene.textures.size()});
@@ -219,6 +262,7 @@ SceneFingerprint compute_scene_fingerprint(const scene::Scene& scene, const Envi
     lights.add(intensity);
     add_numbers(lights, rotation);
   }
+  add_links(lights, scene);
 
   return {{"geometry", hexadecimal(geometry.digest())},
           {"attributes", hexadecimal(attributes.digest())},

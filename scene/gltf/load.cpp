@@ -26,6 +26,7 @@
 #include "scene/gltf/primitives.h"
 #include "scene/gltf/shutter_states.h"
 #include "scene/gltf/shutter_times.h"
+#include "scene/gltf/visibility.h"
 #include "scene/shutter.h"
 
 namespace gatelight::scene {
@@ -95,6 +96,7 @@ class Loader {
     scene.lights = graph.lights;
     appearance_.load_images(options_, scene, warnings_);
     take_image_light(scene);
+    take_visibility(graph, scene);
     scene.motion = {.instances = std::any_of(scene.instances.begin(), scene.instances.end(),
                                              [](const Instance& i) { return i.moves; }),
                     .lights = graph.lights_move,
@@ -105,9 +107,12 @@ class Loader {
   }
 
   void finish(Scene& scene) {
+    apply_visibility(scene, options_.visibility);
     culled_copies_ = finish_geometry(scene, options_.bake_transforms);
     check_bounds(scene, scene.bounds);
+    take_links(scene);
     adjust(scene);
+    link_lights(scene, options_.light_links);
     if (options_.time) show(scene, *options_.time);
   }
 
@@ -120,7 +125,7 @@ class Loader {
     const Graph graph = flatten_again(scene);
     scene.cameras = graph.cameras;
     if (scene.motion.lights || scene.motion.materials) {  // adjust() wants both as the file has them
-      scene.lights = graph.lights;
+      replace_lights(graph, scene);
       appearance_.load_materials(parts_->materials(), options_, scene, warnings_);
       appearance_.load_images(options_, scene, warnings_);
       for (const int original : culled_copies_) add_culled_copy(scene, original);
@@ -128,6 +133,7 @@ class Loader {
     }
     if (scene.motion.image_light) take_image_light(scene);
     if (scene.motion.instances) move_instances(graph, scene);
+    apply_visibility_again(scene, options_.visibility);
     for (std::size_t i = 0; i < scene.shutter.transforms.size(); ++i) {
       const std::vector<Affine>& states = scene.shutter.transforms[i];
       Instance& instance = scene.instances[i];
@@ -202,6 +208,7 @@ class Loader {
 
   static void put(const Placement& placement, Instance& instance) {
     instance.hidden = placement.hidden;
+    instance.visibility = placement.visibility;
     instance.transform = rounded(placement.transform);
     // Computed in double: the product of three small scales would underflow in single precision.
     instance.swaps_handedness = instance.transform.linear().cast<double>().determinant() < 0.0;
@@ -284,6 +291,32 @@ class Loader {
     scene.image_light = load_image_light(document_, shown, options_.missing_is_error, warnings_);
   }
 
+  void take_visibility(const Graph& graph, Scene& scene) {
+    for (const Placement& placement : graph.placements) nodes_.placements.push_back(placement.node);
+    nodes_.lights = graph.light_nodes;
+    if (document_.model().scenes.empty()) return;
+    const int shown = shown_scene(document_.model(), options_.scene);
+    scene.environment_rays = read_visibility(element(document_.model().scenes, shown).extensions).rays;
+    if ((scene.environment_rays & (kCameraRays | kBounceRays)) == 0)
+      warnings_.add(
+          fmt::format("scenes[{}].extensions.{}: no ray sees the environment", shown, kVisibilityExtension));
+  }
+
+  /// Once the list of instances is complete.
+  void take_links(Scene& scene) const {
+    if (document_.model().scenes.empty()) return;
+    Warnings warnings;
+    read_light_links(document_, shown_scene(document_.model(), options_.scene), nodes_, scene, warnings);
+    for (std::string& warning : warnings.take()) scene.warnings.push_back(std::move(warning));
+  }
+
+  /// By those of another time. Their links are the same at all times.
+  static void replace_lights(const Graph& graph, Scene& scene) {
+    const std::vector<PunctualLight> before = std::exchange(scene.lights, graph.lights);
+    for (std::size_t i = 0; i < std::min(before.size(), scene.lights.size()); ++i)
+      scene.lights[i].link = before[i].link;
+  }
+
   void adjust(Scene& scene) const {
     scene.dark_lights.clear();
     adjust_lights(scene, options_.lights);
@@ -301,6 +334,7 @@ class Loader {
   Document document_;
   Appearance appearance_;
   Motion motion_;
+  SourceNodes nodes_;
   std::optional<Parts> parts_;
   std::optional<Animator> animator_;
   std::vector<int> culled_copies_;

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "base/to_number.h"
+#include "scene/gltf/visibility.h"
 
 namespace gatelight::scene::gltf {
 namespace {
@@ -16,6 +17,8 @@ void note_node(const PointerNames& path, Motion& motion) {
   NodeMotion& node = motion.nodes[index];
   if (path[2] == "weights") {
     node.weights = true;
+  } else if (path.size() > 4 && path[3] == kVisibilityExtension) {
+    node.seen_by = true;
   } else if (path.back() == "visible") {
     node.visibility = true;
   } else {

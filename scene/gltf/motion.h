@@ -11,7 +11,8 @@ namespace gatelight::scene::gltf {
 struct NodeMotion {
   bool place = false;  ///< translation, rotation or scale
   bool weights = false;
-  bool visibility = false;
+  bool visibility = false;  ///< KHR_node_visibility
+  bool seen_by = false;     ///< GATELIGHT_visibility
   /// The largest angle in radians by which its rotation turns in an interval of the open shutter.
   double turn = 0.0;
 };

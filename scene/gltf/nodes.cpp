@@ -10,6 +10,7 @@
 #include "scene/gltf/accessors.h"
 #include "scene/gltf/model.h"
 #include "scene/gltf/node_content.h"
+#include "scene/gltf/visibility.h"
 
 namespace gatelight::scene::gltf {
 namespace {
@@ -187,26 +188,41 @@ class GraphWalk {
     }
     const tinygltf::Value* light = find_extension(node.extensions, "KHR_lights_punctual");
     if (!light) return;
-    graph_.lights_move |= state.moves || state.blinks;
+    graph_.lights_move |= state.moves || state.blinks || element(motion_.nodes, index).seen_by;
     if (!state.visible && !state.blinks) return;
     std::optional<PunctualLight> made =
         make_light(document_, index, integer_or(*light, "light", 0), world, warnings_);
     if (!made) return;
     if (!state.visible) made->intensity.setZero();
+    made->rays = seen_by(index, node, kBounceRays).rays;
     graph_.lights.push_back(*std::move(made));
+    graph_.light_nodes.push_back(index);
     graph_.light_turns.push_back(state.turn);
+  }
+
+  /// Of the node's own object or lamp, to which only the rays of `needed` matter.
+  Visibility seen_by(int index, const tinygltf::Node& node, RayKinds needed) {
+    const Visibility visibility = read_visibility(node.extensions);
+    // What changes over time may be unseen for a while.
+    if ((visibility.rays & needed) == 0 && !element(motion_.nodes, index).seen_by) {
+      const char* const what = needed == kAllRays ? "no ray sees the mesh" : "the light lights nothing";
+      warnings_.add(fmt::format("nodes[{}].extensions.{}: {}", index, kVisibilityExtension, what));
+    }
+    return visibility;
   }
 
   void place_mesh(int index, const tinygltf::Node& node, const Transform& world, const State& state) {
     const tinygltf::Mesh& mesh = element(document_.model().meshes, node.mesh);
     Placement placement;
     placement.pose = pose_of(index, node, mesh);
+    placement.node = index;
     // In glTF only the joints place a skinned mesh.
     const bool skinned = graph_.poses[static_cast<std::size_t>(placement.pose)].skin >= 0;
     const Transform base = skinned ? Transform::Identity() : world;
-    placement.moves = (!skinned && state.moves) || state.blinks ||
+    placement.moves = (!skinned && state.moves) || state.blinks || element(motion_.nodes, index).seen_by ||
                       graph_.deforming[static_cast<std::size_t>(placement.pose)] != 0;
     placement.hidden = !state.visible;
+    placement.visibility = seen_by(index, node, kAllRays);
     placement.turn = skinned ? 0.0 : state.turn;
     placement.name = node.name.empty() ? mesh.name : node.name;
     if (placement.name.empty()) placement.name = fmt::format("node {}", index);

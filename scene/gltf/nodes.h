@@ -14,11 +14,13 @@ namespace gatelight::scene::gltf {
 /// A glTF mesh (all its primitives) in the world.
 struct Placement {
   int pose = -1;     ///< into Graph::poses
+  int node = -1;     ///< its index in the file
   std::string name;  ///< Instance::name
   Eigen::Affine3d transform = Eigen::Affine3d::Identity();
   float dielectric_priority = 0.0f;  ///< Instance::dielectric_priority
   bool moves = false;                ///< Instance::moves
   bool hidden = false;               ///< Instance::hidden
+  Visibility visibility;             ///< Instance::visibility
   double turn = 0.0;                 ///< of its node and those above (NodeMotion::turn)
 };
 
@@ -34,6 +36,7 @@ struct Graph {
   std::vector<std::vector<JointMatrix>> joints;  ///< of each of the file's skins that a pose has; else empty
   std::vector<Placement> placements;
   std::vector<PunctualLight> lights;
+  std::vector<int> light_nodes;  ///< their indices in the file
   std::vector<Camera> cameras;
   std::vector<char> deforming;      ///< by the pose
   std::vector<double> pose_turns;   ///< by the pose: the largest of a joint

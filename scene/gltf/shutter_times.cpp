@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "base/to_number.h"
+#include "scene/gltf/visibility.h"
 #include "scene/shutter.h"
 
 namespace gatelight::scene::gltf {
@@ -27,9 +28,10 @@ constexpr double kCoarseTurn = 0.28;
 constexpr int kIntervals = kShutterKeys - 1;  ///< where nothing bends or jumps
 constexpr double kRounding = 1e-6;
 
-/// Materials and the light of lamps stand still in a shutter.
+/// Materials, the light of lamps and what rays see stand still in a shutter.
 bool moves_in_shutter(const Animator::Track& track) {
   const std::string_view pointer = track.pointer;
+  if (pointer.find(kVisibilityExtension) != std::string_view::npos) return false;
   return pointer.starts_with("/nodes/") || pointer.starts_with("/meshes/") ||
          pointer.starts_with("/cameras/");
 }

@@ -134,6 +134,18 @@ void complete_lights(json& root, Warnings& warnings) {
   }
 }
 
+/// tinygltf drops empty objects and lists, but a set of no object differs from a missing one.
+void complete_links(json& root) {
+  for (const char* list : {"nodes", "scenes"}) {
+    if (!root.contains(list)) continue;
+    for (json& owner : root[list]) {
+      const json::json_pointer place("/extensions/GATELIGHT_light_linking");
+      if (!owner.contains(place)) continue;
+      for (json& objects : owner[place]) objects.emplace("exclude", false);
+    }
+  }
+}
+
 void check_views(json& root, std::string_view file, Warnings& warnings) {
   if (!root.contains("bufferViews")) return;
   json& views = root["bufferViews"];
@@ -176,6 +188,7 @@ ValidatedJson validate(std::string_view text, std::string_view file, const LoadO
   check_extensions(root, options.ignore_required, file, warnings);
   complete_cameras(root, file);
   complete_lights(root, warnings);
+  complete_links(root);
   check_views(root, file, warnings);
   validated.channels = take_channels(root);
   return validated;

@@ -76,7 +76,10 @@ std::vector<std::uint8_t> rich_file() {
   file.node({{"mesh", mesh}, {"extensions", instancing({{"TRANSLATION", places}})}});
   file.node({{"camera", camera(file)}});
   set_lights(file, {{{"type", "spot"}, {"spot", {{"outerConeAngle", 0.5}}}}});
-  file.node({{"extensions", light_of_node(0)}});
+  json extensions = light_of_node(0);
+  extensions["GATELIGHT_visibility"] = {{"glossy", false}};
+  extensions["GATELIGHT_light_linking"]["receivers"] = {{"nodes", {0, 2}}, {"exclude", true}};
+  file.node({{"extensions", extensions}});
   return file.glb();
 }
 

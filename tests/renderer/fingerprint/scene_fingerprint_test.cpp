@@ -5,6 +5,7 @@
 
 #include <functional>
 
+#include "base/file/digest.h"
 #include "tests/support/messages.h"
 #include "tests/support/scene_builder.h"
 #include "tests/support/temporary_folder.h"
@@ -34,6 +35,12 @@ scene::Scene varied_scene() {
   s.lights.push_back({});
   s.cameras.push_back({});
   return s;
+}
+
+/// Refers to a set of the first object only.
+void link(scene::Scene& s, int& set) {
+  s.object_sets = {{{1, 0}, false}};
+  set = 0;
 }
 
 /// The names of the parts that differ: "geometry, lights".
@@ -67,6 +74,9 @@ TEST(SceneFingerprint, EachChangeShowsOnlyInItsPart) {
       {"geometry", [](S s, E) { s.instances[1].mesh = 0; }},
       {"geometry", [](S s, E) { s.instances[0].baked = false; }},
       {"geometry", [](S s, E) { s.instances.pop_back(); }},
+      {"geometry", [](S s, E) { s.instances[0].visibility.rays = scene::kCameraRays; }},
+      {"geometry", [](S s, E) { s.instances[1].visibility.holdout = true; }},
+      {"geometry", [](S s, E) { s.instances[1].visibility.shadow_catcher = true; }},
       {"attributes", [](S s, E) { s.meshes[1].normals[3] = Vec3(0, 0, 1); }},
       {"attributes", [](S s, E) { s.meshes[0].uv0[2].x() = 0.5f; }},
       {"attributes", [](S s, E) { std::swap(s.meshes[0].uv0, s.meshes[0].uv1); }},
@@ -89,6 +99,12 @@ TEST(SceneFingerprint, EachChangeShowsOnlyInItsPart) {
       {"lights", [](S s, E) { s.lights[0].type = scene::LightType::spot; }},
       {"lights", [](S s, E) { s.lights[0].cos_outer = 0.5f; }},
       {"lights", [](S s, E) { s.lights.clear(); }},
+      {"lights", [](S s, E) { s.lights[0].rays = scene::kDiffuseRays; }},
+      {"lights", [](S s, E) { s.environment_rays = scene::kBounceRays; }},
+      {"lights", [](S s, E) { link(s, s.lights[0].link.receivers); }},
+      {"lights", [](S s, E) { link(s, s.lights[0].link.blockers); }},
+      {"lights", [](S s, E) { link(s, s.instances[1].link.receivers); }},
+      {"lights", [](S s, E) { link(s, s.environment_link.blockers); }},
       {"environment", [](S, E e) { e.constant.x() = 0.5f; }},
       {"environment", [](S, E e) { e.scale = 2.0f; }},
       {"environment", [](S, E e) { e.sky.emplace(); }},
@@ -104,6 +120,27 @@ TEST(SceneFingerprint, EachChangeShowsOnlyInItsPart) {
   };
   for (std::size_t i = 0; i < cases.size(); ++i) {
     EXPECT_EQ(changed(cases[i].second), cases[i].first) << "case " << i;
+  }
+}
+
+TEST(SceneFingerprint, SetsOfObjectsCountByTheirMembers) {
+  scene::Scene s = varied_scene();
+  link(s, s.lights[0].link.receivers);
+  const SceneFingerprint before = compute_scene_fingerprint(s, {});
+  s.object_sets[0].fog = true;
+  const SceneFingerprint with_fog = compute_scene_fingerprint(s, {});
+  EXPECT_EQ(differing_parts(with_fog, before), "lights");
+  s.object_sets[0].instances = {0, 1};
+  EXPECT_EQ(differing_parts(compute_scene_fingerprint(s, {}), with_fog), "lights");
+}
+
+TEST(SceneFingerprint, HasNothingAboutRaysAndLinksWhereAllSeeAndLightAll) {
+  scene::Scene s = varied_scene();
+  s.lights.clear();
+  for (const NamedText& part : compute_scene_fingerprint(s, {})) {
+    if (part.name == "lights") {
+      EXPECT_EQ(part.text, hexadecimal(DigestRecord().digest())) << "as in earlier versions";
+    }
   }
 }
 
