@@ -4,12 +4,14 @@
 
 #include "scene/bake.h"
 #include "scene/coincident_emitters.h"
+#include "scene/coincident_surfaces.h"
 
 namespace gatelight::scene {
 
 std::vector<int> finish_geometry(Scene& scene, bool bake) {
   if (bake) bake_transforms(scene);
   std::vector<int> culled_copies = separate_coincident_emitters(scene);
+  separate_coincident_surfaces(scene);
   scene.bounds = compute_bounds(scene);
   return culled_copies;
 }

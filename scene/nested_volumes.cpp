@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iterator>
 #include <map>
 #include <numeric>
 #include <set>
@@ -17,9 +16,10 @@ using Indices = std::vector<std::uint32_t>;
 
 /// The surfaces with an inside, of one material, of one placed mesh; or several materials of it that close
 /// together.
-struct Body {
+struct GlassBody {
   Indices instances;
-  Box bounds;
+  Indices closing;      ///< opaque surfaces that close it
+  Box bounds;           ///< a little larger than the body: instances are placed by rounded transforms
   double volume = 0.0;  ///< cubic metres
 
   int placement(const Scene& scene) const { return scene.instances[instances.front()].placement; }
@@ -30,10 +30,37 @@ bool can_close(const Material& m) {
   return m.alpha_mode == AlphaMode::opaque && !m.culled;
 }
 
+/// Bodies at most this far from each other touch, in shares of their coordinates: two offsets of rays, which
+/// would skip a surface behind them.
+constexpr float kTouching = 32.0f * 0x1p-23f;
+
+/// The vertices of a mesh, in all states of an open shutter.
+Box bounds_in_mesh(const Scene& scene, int mesh) {
+  Box box;
+  const auto m = static_cast<std::size_t>(mesh);
+  for (const Vec3& p : scene.meshes[m].positions) box.extend(p);
+  if (!scene.shutter.instances) return box;
+  for (const DeformedVertices& state : scene.shutter.vertices[m]) {
+    for (const Vec3& p : state.positions) box.extend(p);
+  }
+  return box;
+}
+
+/// Extends `bounds` by an instance, whose mesh is in the box, in all states of an open shutter.
+void extend_by_placements(const Scene& scene, std::size_t instance, const Box& box, Box& bounds) {
+  const auto extend = [&](const Affine& transform) {
+    for (int corner = 0; corner < 8; ++corner)
+      bounds.extend(transform * box.corner(static_cast<Box::CornerType>(corner)));
+  };
+  extend(scene.instances[instance].transform);
+  if (!scene.shutter.instances) return;
+  for (const Affine& transform : scene.shutter.transforms[instance]) extend(transform);
+}
+
 /// `wanted(instance, its material)` leaves others out.
 template <class Wanted>
-std::vector<Body> find_bodies(const Scene& scene, const Wanted& wanted) {
-  std::vector<Body> bodies;
+std::vector<GlassBody> find_bodies(const Scene& scene, const Wanted& wanted) {
+  std::vector<GlassBody> bodies;
   std::map<std::pair<int, int>, std::size_t> numbers;  // by placement and material
   std::vector<Box> boxes(scene.meshes.size());
   for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
@@ -47,27 +74,30 @@ std::vector<Body> find_bodies(const Scene& scene, const Wanted& wanted) {
     const int placement = instance.placement < 0 ? -1 - static_cast<int>(i) : instance.placement;
     const auto [number, is_new] = numbers.try_emplace({placement, mesh.material}, bodies.size());
     if (is_new) bodies.emplace_back();
-    Body& body = bodies[number->second];
+    GlassBody& body = bodies[number->second];
     body.instances.push_back(i);
     Box& box = boxes[static_cast<std::size_t>(instance.mesh)];
-    if (box.isEmpty()) {
-      for (const Vec3& p : mesh.positions) box.extend(p);
-    }
-    for (int corner = 0; corner < 8; ++corner)
-      body.bounds.extend(instance.transform * box.corner(static_cast<Box::CornerType>(corner)));
+    if (box.isEmpty()) box = bounds_in_mesh(scene, instance.mesh);
+    extend_by_placements(scene, i, box, body.bounds);
+  }
+  for (GlassBody& body : bodies) {
+    const float largest =
+        std::max(body.bounds.min().cwiseAbs().maxCoeff(), body.bounds.max().cwiseAbs().maxCoeff());
+    const Vec3 margin = Vec3::Constant(kTouching * largest);
+    body.bounds = Box(body.bounds.min() - margin, body.bounds.max() + margin);
   }
   return bodies;
 }
 
 /// Keeps the bodies whose bounding boxes touch another's. They are swept along the axis on which they are
 /// spread most. With very many bodies it may keep more of them, which costs their paths only a little time.
-void keep_those_that_touch(std::vector<Body>& bodies) {
+void keep_those_that_touch(std::vector<GlassBody>& bodies) {
   constexpr std::size_t kMaxTests = 20'000'000;
   Box all;
-  for (const Body& body : bodies) all.extend(body.bounds);
+  for (const GlassBody& body : bodies) all.extend(body.bounds);
   Eigen::Index axis = 0;
   if (!all.isEmpty()) all.sizes().maxCoeff(&axis);
-  std::stable_sort(bodies.begin(), bodies.end(), [axis](const Body& a, const Body& b) {
+  std::stable_sort(bodies.begin(), bodies.end(), [axis](const GlassBody& a, const GlassBody& b) {
     return a.bounds.min()[axis] < b.bounds.min()[axis];
   });
   std::vector<char> touches(bodies.size(), 0);
@@ -79,7 +109,7 @@ void keep_those_that_touch(std::vector<Body>& bodies) {
       if (bodies[a].bounds.intersects(bodies[b].bounds)) touches[a] = touches[b] = 1;
     }
   }
-  std::vector<Body> kept;
+  std::vector<GlassBody> kept;
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     if (touches[i]) kept.push_back(std::move(bodies[i]));
   }
@@ -202,17 +232,17 @@ class EnclosedVolumes {
 
 /// Bodies that are not closed by themselves become one body if all of their placement are closed together, or
 /// together with its opaque surfaces.
-std::vector<Body> closed_bodies(const Scene& scene, std::vector<Body> bodies) {
+std::vector<GlassBody> closed_bodies(const Scene& scene, std::vector<GlassBody> bodies) {
   EnclosedVolumes enclosed(scene);
-  std::vector<Body> closed;
-  std::map<int, Body> open;  // by placement
-  for (Body& body : bodies) {
+  std::vector<GlassBody> closed;
+  std::map<int, GlassBody> open;  // by placement
+  for (GlassBody& body : bodies) {
     body.volume = enclosed(body.instances);
     if (body.volume > 0.0) {
       closed.push_back(std::move(body));
       continue;
     }
-    Body& rest = open[body.placement(scene)];
+    GlassBody& rest = open[body.placement(scene)];
     rest.instances.insert(rest.instances.end(), body.instances.begin(), body.instances.end());
     rest.bounds.extend(body.bounds);
   }
@@ -228,8 +258,9 @@ std::vector<Body> closed_bodies(const Scene& scene, std::vector<Body> bodies) {
     std::sort(body.instances.begin(), body.instances.end());
     body.volume = enclosed(body.instances);
     if (body.volume == 0.0 && opaque.contains(placement)) {
+      body.closing = opaque[placement];
       Indices all = body.instances;
-      std::copy(opaque[placement].begin(), opaque[placement].end(), std::back_inserter(all));
+      all.insert(all.end(), body.closing.begin(), body.closing.end());
       body.volume = enclosed(all);
     }
     if (body.volume > 0.0) closed.push_back(std::move(body));
@@ -240,23 +271,23 @@ std::vector<Body> closed_bodies(const Scene& scene, std::vector<Body> bodies) {
 }  // namespace
 
 NestedVolumes find_nested_volumes(const Scene& scene, bool all) {
-  std::vector<Body> bodies =
+  std::vector<GlassBody> bodies =
       find_bodies(scene, [](const Instance& instance, const Material&) { return instance.placement >= 0; });
   if (!all) keep_those_that_touch(bodies);
   bodies = closed_bodies(scene, std::move(bodies));
   if (!all) keep_those_that_touch(bodies);
-  const auto strength = [&](const Body& body) {
+  const auto strength = [&](const GlassBody& body) {
     const std::uint32_t first = body.instances.front();
     // Volumes that differ by rounding are the same.
     return std::tuple(-scene.instances[first].dielectric_priority, std::llround(1e4 * std::log(body.volume)),
                       body.placement(scene), first);
   };
   std::sort(bodies.begin(), bodies.end(),
-            [&](const Body& a, const Body& b) { return strength(a) < strength(b); });
+            [&](const GlassBody& a, const GlassBody& b) { return strength(a) < strength(b); });
   NestedVolumes nested;
   if (bodies.empty()) return nested;
   nested.of_instance.assign(scene.instances.size(), kNoVolume);
-  for (const Body& body : bodies) {
+  for (const GlassBody& body : bodies) {
     for (const std::uint32_t instance : body.instances)
       nested.of_instance[instance] = static_cast<std::uint32_t>(nested.instances.size());
     nested.instances.push_back(body.instances.front());
@@ -264,11 +295,31 @@ NestedVolumes find_nested_volumes(const Scene& scene, bool all) {
   return nested;
 }
 
+double enclosed_volume(const Scene& scene, std::uint32_t instance) {
+  return EnclosedVolumes(scene)({instance});
+}
+
+std::vector<EnclosedBody> find_bodies_at(const Scene& scene, const Box& places) {
+  std::vector<GlassBody> bodies =
+      find_bodies(scene, [](const Instance& instance, const Material&) { return instance.placement >= 0; });
+  // Those that only together close may lie apart, so all of a placement are kept or none.
+  std::set<int> near;
+  for (const GlassBody& body : bodies) {
+    if (body.bounds.intersects(places)) near.insert(body.placement(scene));
+  }
+  std::erase_if(bodies, [&](const GlassBody& body) { return !near.contains(body.placement(scene)); });
+  std::vector<EnclosedBody> found;
+  for (GlassBody& body : closed_bodies(scene, std::move(bodies))) {
+    if (body.bounds.intersects(places)) found.push_back({std::move(body.instances), std::move(body.closing)});
+  }
+  return found;
+}
+
 std::vector<int> open_scatterers(const Scene& scene) {
   std::vector<std::uint8_t> closed(scene.instances.size(), 0);
   std::set<int> open;
   const auto scatters = [](const Instance&, const Material& material) { return material.scatters(); };
-  for (const Body& body : closed_bodies(scene, find_bodies(scene, scatters))) {
+  for (const GlassBody& body : closed_bodies(scene, find_bodies(scene, scatters))) {
     for (const std::uint32_t instance : body.instances) closed[instance] = 1;
   }
   for (std::size_t i = 0; i < scene.instances.size(); ++i) {
