@@ -90,6 +90,10 @@ PathBlock* CachedPaths::scatter(std::uint32_t number, Path& path, Ray& ray, Hit&
   FirstHit* const first = first_hits.empty() ? nullptr : &first_hits[path.index];
   if (path.inside && path.inside->scatters && !walk(path, ray, hit, plan, batch, first, counts, scratch))
     return nullptr;
+  if (hit && path.is_held_out(context_, hit)) {
+    if (first) record_background(path, *first);
+    return nullptr;
+  }
   if (!hit || path.looks_through(context_, hit)) {
     if (first) record_background(path, *first);
     const Emission sky = path.sky(context_, ray.direction);
@@ -98,7 +102,7 @@ PathBlock* CachedPaths::scatter(std::uint32_t number, Path& path, Ray& ray, Hit&
   }
   SurfaceInteraction m = path.intersect(context_, ray, hit, plan.max_depth);
   path.weights *= m.passed;
-  if (first && path.is_unscattered()) *first = first_hit(hit, m.surface, context_.world.scene.origin);
+  if (first && path.is_unscattered()) *first = first_hit(hit, m.surface, path, context_.world.scene.origin);
   if (first) record_guide(path, m, *first);
   add_emission(path, m.emission, false, batch);
   if (m.ends) return nullptr;

@@ -106,6 +106,7 @@ TrainingPoints::TrainingPoints(const World& world, const Camera& camera, const P
     }
   }
   by_area_ = AliasTable(areas);
+  surroundings_.emplace(scene, world.media, world.accel, world.surfaces, scene.bounds);
 }
 
 void TrainingPoints::choose(std::uint64_t step, std::size_t count, bool need_hits,
@@ -193,6 +194,7 @@ void TrainingPoints::from_camera(std::uint64_t step, std::size_t count, Training
       start.sample.camera_ray =
           camera_ray(camera_, static_cast<float>(region_.x0) + x * cell_width,
                      static_cast<float>(region_.y0) + y * cell_height, start.sample.sampler);
+      start.sample.start = camera_.medium_of(start.sample.camera_ray.ray);
     }
   });
 }
@@ -229,6 +231,8 @@ void TrainingPoints::from_surfaces(std::uint64_t step, std::size_t count, Traini
       ray.ray.origin =
           corners[0] + point.x() * (corners[1] - corners[0]) + point.y() * (corners[2] - corners[0]) + wo;
       ray.ray.direction = -wo;
+      const Vec3 off_surface = world_.surfaces.at(hit, -wo, 0.0f, 0.0f).spawn(wo);
+      start.sample.start = surroundings_->at(off_surface, ray.ray.time);
     }
   });
 }
@@ -280,6 +284,7 @@ void TrainingPoints::prefer_seldom(std::uint64_t step, std::span<const std::uint
     const std::size_t chosen =
         neural::choose_candidate(candidates, counts, sampling::to_unit_float(hash(random)));
     result.starts[i].sample.camera_ray = pool[places[chosen]].sample.camera_ray;
+    result.starts[i].sample.start = pool[places[chosen]].sample.start;
     result.hits[i] = hits[places[chosen]];
   };
   for_each_range(size, kStartsOfRange, [&](std::size_t begin, std::size_t end) {

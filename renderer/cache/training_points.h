@@ -12,6 +12,7 @@
 #include "renderer/film/pixel_filter.h"
 #include "renderer/film/sample_order.h"
 #include "renderer/sampling/alias_table.h"
+#include "renderer/surface/surroundings.h"
 
 namespace gatelight::renderer {
 
@@ -74,6 +75,7 @@ class TrainingPoints {
   };
   std::vector<Triangle> triangles_;
   AliasTable by_area_;
+  std::optional<Surroundings> surroundings_;  ///< of these triangles
 };
 
 }  // namespace gatelight::renderer

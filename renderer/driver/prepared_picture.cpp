@@ -24,6 +24,9 @@
 namespace gatelight::renderer {
 namespace {
 
+constexpr const char* kByLobe =
+    "has objects or lights that only some bounces find, and a cache does not tell bounces apart";
+
 RenderOptions checked(const RenderOptions& options) {
   check_light_groups(options);
   if (!options.region) return options;
@@ -146,6 +149,7 @@ void PreparedPicture::choose_options(const RenderOptions& chosen) {
   asks_for_sky = may_need_sky(scene, next);
   next.environment.automatic = next.environment.automatic && !next.environment.sky &&
                                shows_light(next.integrator) && (asks_for_sky || scene.image_light);
+  leave_cache(next);
   const RenderOptions& before = options_of_picture;
   if (next.background != before.background || next.width != before.width || next.height != before.height)
     check_background(next.background, next.width, next.height);
@@ -160,19 +164,33 @@ void PreparedPicture::choose_options(const RenderOptions& chosen) {
   bvh_budget = checked_budget(scene, options_of_picture);
 }
 
+void PreparedPicture::leave_cache(RenderOptions& next) {
+  left_cache_.clear();
+  if (next.integrator != Integrator::nrc || !sees_by_lobe(scene)) return;
+  for (const std::string* file : {&next.cache.cache_in, &next.cache.cache_out}) {
+    if (!file->empty())
+      throw BadOption({"integrator", "nrc", fmt::format("{} {}", scene.path, kByLobe), "`integrator` path"});
+  }
+  use_integrator(next, Integrator::path);
+  left_cache_ = fmt::format("{} {}: `integrator` path is used", scene.path, kByLobe);
+}
+
 void PreparedPicture::build_world(const WorldOptions& wanted) {
   if (world && built_ == wanted) return;
   ReusableParts lasting;
   if (world) {
     lasting.textures = world->lasting.textures;
     if (built_.environment == wanted.environment) lasting.environment = world->lasting.environment;
-    // Which meshes ask for their coverage is built into the BVH.
-    if (built_.acceleration == wanted.acceleration && built_.glass_shadows == wanted.glass_shadows)
+    // Which meshes ask for their coverage, and which rays meet them, is built into the BVH.
+    if (built_.acceleration == wanted.acceleration && built_.glass_shadows == wanted.glass_shadows &&
+        built_.background.is_separate() == wanted.background.is_separate() &&
+        built_.background.shadow_catcher == wanted.background.shadow_catcher)
       lasting.accel = world->lasting.accel;
     world.reset();
   }
   arena.execute([&] { world.emplace(scene, wanted, lasting); });
   built_ = wanted;
+  if (is_placed_) camera = camera_of_size(options.width, options.height);  // refers to the world
 }
 
 std::optional<bool> PreparedPicture::sky_of_view() const {
@@ -194,7 +212,7 @@ WorldOptions PreparedPicture::options_to_judge(bool sky) const {
 double PreparedPicture::dark_with(bool sky) {
   build_world(options_to_judge(sky));
   const double aspect = static_cast<double>(options.width) / options.height;
-  return arena.execute([&] { return dark_share(*world, view, camera.around(), aspect); });
+  return arena.execute([&] { return dark_share(*world, view, camera, aspect); });
 }
 
 void PreparedPicture::choose_sky() {
@@ -256,6 +274,10 @@ WorldOptions PreparedPicture::world_options() const {
 
 void PreparedPicture::scene_moved(const CameraOptions& chosen) {
   const Clock::time_point start = Clock::now();
+  if (options.integrator == Integrator::nrc && sees_by_lobe(scene)) {
+    throw BadOption(
+        {"integrator", "nrc", fmt::format("{} {} at this time", scene.path, kByLobe), "`integrator` path"});
+  }
   if (scene.motion.any()) {
     // An earlier time that could not be shown may have left no world.
     const ReusableParts lasting = world ? world->lasting : ReusableParts{};
@@ -287,15 +309,14 @@ void PreparedPicture::set_camera(const CameraOptions& chosen) {
         view.focus_distance, view.focus_distance);
   }
   camera = camera_of_size(options.width, options.height);
-  // Rays of an orthographic camera begin at many places.
-  if (!view.orthographic) camera.set_around(volumes_around(*world, view.transform.translation()));
+  is_placed_ = true;
   choose_sky();
   find_noisy_guides();
   statistics.warnings.clear();
   for (std::string warning :
-       {denoiser_warning(chosen_denoiser), sky_warning(scene, options, asks_for_sky), world->media.warning(),
-        made_view(scene, options.camera, view), std::move(focus), world->environment.warning(),
-        view_warning(*world, camera, options.width, options.height)}) {
+       {denoiser_warning(chosen_denoiser), sky_warning(scene, options, asks_for_sky), left_cache_,
+        world->warning, world->media.warning(), made_view(scene, options.camera, view), std::move(focus),
+        world->environment.warning(), view_warning(*world, camera, options.width, options.height)}) {
     if (!warning.empty()) statistics.warnings.push_back(std::move(warning));
   }
 }
@@ -323,6 +344,8 @@ Camera PreparedPicture::camera_of_size(int width, int height) const {
       states.emplace_back(moved, width, height);
     made.open_shutter(std::move(states), scene.shutter.clock);
   }
+  made.set_surroundings(std::make_shared<const Surroundings>(scene, world->media, world->accel,
+                                                             world->surfaces, made.origins()));
   return made;
 }
 

@@ -79,6 +79,8 @@ struct PreparedPicture {
 
  private:
   void choose_options(const RenderOptions& chosen);
+  /// Chooses plain paths where a cache cannot hold what the scene shows.
+  void leave_cache(RenderOptions& next);
   void build_world(const WorldOptions& wanted);
   /// Whether the view decides about the soft sky.
   bool judges_view() const;
@@ -98,6 +100,8 @@ struct PreparedPicture {
   WorldOptions built_;      ///< of the present world
   std::uint32_t seed_ = 0;  ///< of the whole animation
   bool chooses_watertight_ = false;
+  bool is_placed_ = false;  ///< the camera is
+  std::string left_cache_;  ///< the warning of leave_cache()
 };
 
 }  // namespace gatelight::renderer

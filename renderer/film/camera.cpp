@@ -26,7 +26,9 @@ Vec2 polygon_point(const Vec2& u, int corners) {
 }  // namespace
 
 Camera::Camera(const View& view, int width, int height)
-    : width_(static_cast<float>(width)),
+    : near_(view.clip.near),
+      far_(view.clip.far),
+      width_(static_cast<float>(width)),
       height_(static_cast<float>(height)),
       lens_radius_(view.lens_radius),
       focus_distance_(view.focus_distance),
@@ -56,38 +58,79 @@ Camera::Camera(const View& view, int width, int height)
   }
 }
 
+Box Camera::origins() const {
+  Box box;
+  if (panorama_) {
+    const Vec3 reach = Vec3::Constant(near_);
+    box = Box(origin_ - reach, origin_ + reach);
+  } else if (orthographic_ || near_ > 0.0f) {
+    const float margin = 16.0f + 0.05f * std::max(width_, height_);  // pixels, for the filter
+    for (const float x : {-margin, width_ + margin}) {
+      for (const float y : {-margin, height_ + margin}) box.extend(ray(x, y).ray.origin);
+    }
+  } else {
+    box.extend(origin_);
+  }
+  if (has_lens()) {
+    const Vec3 reach = lens_radius_ * (unit_right_.cwiseAbs() + unit_up_.cwiseAbs());
+    box = Box(box.min() - reach, box.max() + reach);
+  }
+  for (const Camera& state : states_) box.extend(state.origins());
+  return box;
+}
+
+void Camera::set_surroundings(std::shared_ptr<const Surroundings> surroundings) {
+  medium_ = {};
+  surroundings_ = nullptr;
+  if (surroundings->empty()) return;
+  const Box places = origins();
+  if (has_shutter_ || places.min() != places.max()) {
+    surroundings_ = std::move(surroundings);
+  } else {
+    medium_ = surroundings->at(places.min(), scene::kShutterMiddle);
+  }
+}
+
+void Camera::take_surroundings(const Camera& other) {
+  medium_ = other.medium_;
+  surroundings_ = other.surroundings_;
+}
+
 CameraRay Camera::panorama_ray(float x, float y) const {
   // The filter may reach beyond the poles.
   const float azimuth = (x / width_ - 0.5f) * 2.0f * kPi, polar = y / height_ * kPi;
   const float level = std::sin(polar);
+  return made(origin_, (level * std::sin(azimuth) * unit_right_ + std::cos(polar) * unit_up_ +
+                        level * std::cos(azimuth) * forward_)
+                           .normalized());
+}
+
+CameraRay Camera::made(const Vec3& origin, const Vec3& direction) const {
   CameraRay result;
-  result.ray.origin = origin_;
-  result.ray.direction = (level * std::sin(azimuth) * unit_right_ + std::cos(polar) * unit_up_ +
-                          level * std::cos(azimuth) * forward_)
-                             .normalized();
+  result.ray.origin = origin;
+  result.ray.direction = direction;
+  result.ray.mask = ray_mask(scene::kCameraRays);
   result.cone = cone_;
+  if (!(near_ > 0.0f) && !(far_ < kInfinity)) return result;
+  const float stretch = panorama_ ? 1.0f : 1.0f / direction.dot(forward_);
+  result.begin = near_ * stretch;
+  result.ray.origin += result.begin * direction;
+  result.ray.t_max = (far_ - near_) * stretch;
+  result.cone.width += cone_.spread * result.begin;
   return result;
 }
 
 CameraRay Camera::ray(float x, float y) const {
   if (panorama_) return panorama_ray(x, y);
-  CameraRay result;
   const Vec3 on_plane = corner_ + right_ * x + down_ * y;
-  result.ray.origin = orthographic_ ? on_plane : origin_;
-  result.ray.direction = orthographic_ ? forward_ : Vec3(on_plane.normalized());
-  result.cone = cone_;
-  return result;
+  return orthographic_ ? made(on_plane, forward_) : made(origin_, on_plane.normalized());
 }
 
 CameraRay Camera::ray(float x, float y, const Vec2& lens) const {
   if (!has_lens()) return ray(x, y);
   const Vec2 p = lens_radius_ * (blades_ > 0 ? polygon_point(lens, blades_) : sample_concentric_disk(lens));
   const Vec3 offset = p.x() * unit_right_ + p.y() * unit_up_;
-  CameraRay result;
-  result.ray.origin = origin_ + offset;
-  result.ray.direction = ((corner_ + right_ * x + down_ * y) * focus_distance_ - offset).normalized();
-  result.cone = cone_;
-  return result;
+  return made(origin_ + offset, ((corner_ + right_ * x + down_ * y) * focus_distance_ - offset).normalized());
 }
 
 void Camera::open_shutter(std::vector<Camera> states, std::vector<float> clock) {
@@ -107,6 +150,7 @@ CameraRay Camera::ray(float x, float y, const Vec2& lens, float seen) const {
     result = a;
     result.ray.origin = scene::between(a.ray.origin, b.ray.origin, around.fraction);
     result.ray.direction = scene::between(a.ray.direction, b.ray.direction, around.fraction).normalized();
+    result.begin = scene::between(a.begin, b.begin, around.fraction);
   }
   result.ray.time = time;
   return result;

@@ -1,6 +1,8 @@
 #pragma once
 // Generates primary rays.
 
+#include <memory>
+#include <optional>
 #include <vector>
 
 #include "renderer/image/picture.h"
@@ -8,12 +10,14 @@
 #include "renderer/surface/media.h"
 #include "renderer/surface/ray.h"
 #include "renderer/surface/surface.h"
+#include "renderer/surface/surroundings.h"
 
 namespace gatelight::renderer {
 
 struct CameraRay {
   Ray ray;
   RayCone cone;
+  float begin = 0.0f;  ///< metres from the eye to its origin: clipping leaves them out
 };
 
 class Camera {
@@ -22,9 +26,17 @@ class Camera {
   /// camera; the vertical field of view stays.
   Camera(const View& view, int width, int height);
 
-  /// The volumes that all rays start in; none unless set.
-  const MediumStack& around() const { return around_; }
-  void set_around(const MediumStack& around) { around_ = around; }
+  /// Bounds of the points where rays start, for a filter of a few pixels.
+  Box origins() const;
+  /// Rays start in the media that are there; without this call in none. `surroundings`: for origins(). It is
+  /// asked for each ray only if rays start in several places or at several times near a body.
+  void set_surroundings(std::shared_ptr<const Surroundings> surroundings);
+  /// The same as for another camera of the same view.
+  void take_surroundings(const Camera& other);
+  /// What a ray of this camera starts in.
+  StartMedium medium_of(const Ray& ray) const {
+    return surroundings_ ? surroundings_->at(ray.origin, ray.time) : medium_;
+  }
 
   /// Rays get times from now on. `states`: of the camera, at evenly spaced times from the opening to the
   /// closing of the shutter, or empty where it stands still. `clock`: scene::ShutterMotion::clock.
@@ -54,8 +66,11 @@ class Camera {
 
  private:
   CameraRay panorama_ray(float x, float y) const;
+  /// The ray from the eye, clipped.
+  CameraRay made(const Vec3& origin, const Vec3& direction) const;
 
-  MediumStack around_;
+  StartMedium medium_;  ///< of all rays, unless there are surroundings
+  std::shared_ptr<const Surroundings> surroundings_;
   Vec3 origin_;
   Vec3 right_;  ///< one pixel, at a distance of one metre (perspective) or in the world (orthographic)
   Vec3 down_;
@@ -64,6 +79,8 @@ class Camera {
   Vec3 unit_right_;
   Vec3 unit_up_;
   RayCone cone_;
+  float near_;  ///< metres along the view; of a panorama along the ray
+  float far_;
   float width_;  ///< pixels
   float height_;
   float lens_radius_;

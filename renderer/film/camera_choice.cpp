@@ -203,6 +203,9 @@ View choose_camera(const scene::Scene& scene, const std::vector<scene::Camera>& 
                options.look_at ? "it" : fmt::format("'{}' of {}", view.name, scene.path));
   turn_around(scene, options, view);
   set_lens(scene, options.lens, aspect, view);
+  const auto& [near, far] = view.clip = options.clip;
+  if (!(near >= 0.0f && near < far))
+    throw BadOption({"clip", fmt::format("{},{}", near, far), "", "NEAR,FAR in metres, 0 <= NEAR < FAR"});
   return view;
 }
 

@@ -16,7 +16,7 @@ struct CameraSample {
   std::uint32_t seed = 0;  ///< a hash of (seed, pixel, sample), for decisions that need no low discrepancy
   /// A light sample that adds less radiance than this is traced by Russian roulette. 0: all are traced.
   float contribution_threshold = 0.0f;
-  MediumStack around;  ///< the volumes that the ray starts in
+  StartMedium start;  ///< what the ray starts in
 
   /// The camera's ray.
   Ray ray() const {

@@ -28,12 +28,12 @@ CameraSample make_camera_sample(const PixelSample& sample, const RenderOptions& 
   const auto x = static_cast<std::uint32_t>(pixel.x);
   const auto y = static_cast<std::uint32_t>(pixel.y);
   CameraSample s;
-  s.around = camera.around();
   s.sampler = sampler_of(sample, options);
   s.seed = hash(hash(hash(hash(options.seed) + x) + y) + number);
   const Vec2 offset = filter.sample(s.sampler.get_2d(dimension::kFilm));
   s.camera_ray = camera_ray(camera, static_cast<float>(pixel.x) + 0.5f + offset.x(),
                             static_cast<float>(pixel.y) + 0.5f + offset.y(), s.sampler);
+  s.start = camera.medium_of(s.camera_ray.ray);
   return s;
 }
 

@@ -36,6 +36,7 @@ std::string text_of(const View& view) {
   if (view.panorama) text += " panorama";
   if (view.lens_radius > 0.0f)
     text += fmt::format(" lens {},{},{}", view.lens_radius, view.focus_distance, view.blades);
+  if (!(view.clip == Clip{})) text += fmt::format(" clip {},{}", view.clip.near, view.clip.far);
   return text;
 }
 

@@ -113,8 +113,8 @@ bool shines(const PunctualLight& light) {
 }  // namespace
 
 Lights::Lights(const scene::Scene& scene, const Textures& textures, const Environment& environment,
-               LightSelection selection)
-    : environment_(environment), triangles_(scene, textures) {
+               LightSelection selection, std::optional<bool> constant_sky)
+    : environment_(environment), constant_sky_(constant_sky), triangles_(scene, textures) {
   const scene::ShutterMotion& shutter = scene.shutter;
   bool any_moves = false;
   for (std::size_t i = 0; i < scene.lights.size(); ++i) {
@@ -131,7 +131,9 @@ Lights::Lights(const scene::Scene& scene, const Textures& textures, const Enviro
     distant_.push_back({.name = "sun",
                         .type = LightType::directional,
                         .intensity = sun->irradiance,
-                        .direction = -sun->direction});
+                        .direction = -sun->direction,
+                        .rays = scene.environment_rays,
+                        .link = scene.environment_link});
   }
   std::vector<LightBounds> bounds;
   bounds.reserve(triangles_.size() + placed_.size());
@@ -208,15 +210,11 @@ int Lights::count_distant(const Vec3& n) const {
   return count;
 }
 
-bool Lights::samples_sky(int other_parts) const {
-  return !environment_.black() && !(environment_.constant() && other_parts > 0);
-}
-
 LightSample Lights::sample(const Vec3& p, const Vec3& n, float u_select, const Vec2& u, float time) const {
   LightTree::Weights root{};
   const bool local = local_.reaches(p, n, root);
   const int distant = count_distant(n);
-  const bool sky = samples_sky((local ? 1 : 0) + distant);
+  const bool sky = samples_sky(local || distant > 0);
   const Share share((local ? 1 : 0) + distant + (sky ? 1 : 0), u_select, u);
   if (local && share.part == 0) {
     const LightTree::Choice choice = local_.sample(root, p, n, share.rest);
@@ -318,7 +316,7 @@ LightSample Lights::sample_environment(const Vec3& n, float choice, const Vec2& 
 float Lights::pdf_local(const Vec3& p, const Vec3& n, std::uint32_t light) const {
   const float probability = local_.probability(p, n, light);
   const int suns = count_distant(n);
-  return probability / static_cast<float>(1 + suns + (samples_sky(1 + suns) ? 1 : 0));
+  return probability / static_cast<float>(1 + suns + (samples_sky(true) ? 1 : 0));
 }
 
 LightSample Lights::same_point_from(const Vec3& p, const LightSample& sample, const Vec3& from,
@@ -363,7 +361,7 @@ float Lights::pdf_triangle(const Vec3& p, const Vec3& n, std::uint32_t light,
 float Lights::pdf_environment(const Vec3& p, const Vec3& n, const Vec3& wi) const {
   LightTree::Weights root{};
   const int others = (local_.reaches(p, n, root) ? 1 : 0) + count_distant(n);
-  if (!samples_sky(others)) return 0.0f;
+  if (!samples_sky(others > 0)) return 0.0f;
   const float density =
       environment_.constant() && !n.isZero(0.0f) ? pdf_cosine_hemisphere(n.dot(wi)) : environment_.pdf(wi, n);
   return density / static_cast<float>(1 + others);

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "renderer/light/emissive_triangles.h"
@@ -32,8 +33,9 @@ struct LightSample {
 /// Thread-safe after construction; holds references to its arguments.
 class Lights {
  public:
+  /// `constant_sky`: whether a constant environment gets light samples; empty: if there are no other lights.
   Lights(const scene::Scene& scene, const Textures& textures, const Environment& environment,
-         LightSelection selection);
+         LightSelection selection, std::optional<bool> constant_sky = {});
 
   bool empty() const { return local_.empty() && distant_.empty() && environment_.black(); }
 
@@ -72,6 +74,12 @@ class Lights {
   /// The number of triangles that can be chosen: not degenerate, not black.
   std::size_t emissive_triangles() const { return emissive_count_; }
   std::size_t bytes() const;
+
+  /// Whether the environment gets light samples, beside other lights or without them.
+  bool samples_sky(bool beside_others) const {
+    if (environment_.black()) return false;
+    return !environment_.constant() || constant_sky_.value_or(!beside_others);
+  }
 
   // For the kernels. Light `i` of the tree is triangle i, or placed light i - triangles().size().
   const Environment& environment() const { return environment_; }
@@ -117,11 +125,11 @@ class Lights {
   LightSample sample_environment(const Vec3& n, float choice, const Vec2& u) const;
 
   int count_distant(const Vec3& n) const;
-  /// Whether the environment gets light samples. BSDF sampling finds a constant environment as well as light
-  /// samples do, so a constant environment is sampled only where there are no other lights.
-  bool samples_sky(int other_parts) const;
 
   const Environment& environment_;
+  /// BSDF sampling finds a constant environment as well as light samples do, so it is sampled only where
+  /// there are no other lights, unless this says otherwise.
+  std::optional<bool> constant_sky_;
   EmissiveTriangles triangles_;
   std::vector<scene::PunctualLight> placed_;   ///< point and spot lights
   std::vector<scene::PunctualLight> distant_;  ///< directional lights

@@ -19,7 +19,8 @@ struct BackgroundOptions {
   Kind kind = Kind::scene;
   Color color{0.0f, 0.0f, 0.0f};
   std::string file;
-  /// A node of the scene whose objects are invisible except for the shadows on them; empty: none.
+  /// Nodes of the scene, separated by ';', whose objects are invisible except for the shadows on them; a '*'
+  /// at the end of a name matches any ending. Others may be catchers by themselves (scene/visibility.h).
   std::string shadow_catcher;
 
   /// Whether the environment is left out of the view.

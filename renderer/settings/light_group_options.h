@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "scene/visibility.h"
+
 namespace gatelight::renderer {
 
 /// Lights whose part of the picture gets a separate layer.
@@ -16,8 +18,7 @@ struct LightGroup {
   bool operator==(const LightGroup&) const = default;
 };
 
-/// The name of the environment, including its sun, in a group.
-inline constexpr const char* kEnvironmentWord = "environment";
+using scene::kEnvironmentWord;
 /// The group of all lights that belong to no other group.
 inline constexpr const char* kRestGroup = "rest";
 /// Prefix of the names of their layers.

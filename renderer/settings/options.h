@@ -15,6 +15,7 @@
 #include "renderer/settings/enums.h"
 #include "renderer/settings/environment_options.h"
 #include "renderer/settings/light_group_options.h"
+#include "renderer/settings/view.h"
 
 namespace gatelight::renderer {
 
@@ -51,6 +52,7 @@ struct CameraOptions {
   Projection projection = Projection::camera;
   std::optional<float> view_height;  ///< metres, of an orthographic picture
   LensOptions lens;
+  Clip clip;
   float turn = 0.0f;  ///< radians by which the camera orbits its target, counter-clockwise from above
   float turn_in_shutter = 0.0f;  ///< radians of this orbit while the shutter is open
 };

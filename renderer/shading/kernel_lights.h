@@ -137,8 +137,11 @@ GATELIGHT_INLINE KindOfLight choose_kind(const LightArraysPtr& view, const Recei
     suns += words_of(is_above(r, view.suns + LightArraysPtr::kSunFloats * i)) & 1u;
   const Int one_local = words_of(reached) & 1u;
   Mask sky = no_lanes();
-  if (view.sky == LightArraysPtr::Sky::picture) sky = ~sky;
-  if (view.sky == LightArraysPtr::Sky::constant) sky = (one_local + suns) == 0u;
+  if (view.always_sky) {
+    sky = ~sky;
+  } else if (view.sky == LightArraysPtr::Sky::constant) {
+    sky = (one_local + suns) == 0u;
+  }
   const Int parts = one_local + suns + (words_of(sky) & 1u);
   const Mask some = ~(parts == 0u);
   const Float count = to_float(select(some, parts, Int(1u)));

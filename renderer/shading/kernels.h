@@ -24,6 +24,7 @@ struct LightArraysPtr {
   const float* suns = nullptr;  ///< direction and irradiance
   std::uint32_t sun_count = 0;
   Sky sky = Sky::none;
+  bool always_sky = false;  ///< sampled beside other lights, too
   float sky_radiance[3] = {0.0f, 0.0f, 0.0f};
 };
 

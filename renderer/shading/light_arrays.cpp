@@ -51,7 +51,8 @@ LightArrays::LightArrays(const Lights& lights)
   view_.suns = suns_.data();
   view_.sun_count = static_cast<std::uint32_t>(lights.distant().size());
   const Environment& sky = lights.environment();
-  if (!sky.black()) view_.sky = sky.constant() ? LightArraysPtr::Sky::constant : LightArraysPtr::Sky::picture;
+  view_.always_sky = lights.samples_sky(true);
+  if (lights.samples_sky(false)) view_.sky = sky.constant() ? LightArraysPtr::Sky::constant : LightArraysPtr::Sky::picture;
   complete_ = complete_ && view_.sky != LightArraysPtr::Sky::picture;
   for (int c = 0; c < 3; ++c) view_.sky_radiance[c] = sky.mean()[c];
 }
@@ -62,6 +63,7 @@ LightArraysPtr LightArrays::delta_view() const {
   view.nearest2 = placed_tree_->nearest2();
   view.triangle_count = 0;
   view.sky = LightArraysPtr::Sky::none;
+  view.always_sky = false;
   return view;
 }
 

@@ -24,6 +24,9 @@ inline std::uint32_t shadow_seed(std::uint32_t seed) {
 inline float boundary_number(std::uint32_t seed) {
   return sampling::to_unit_float(hash(seed ^ 0x7f4a7c15u));
 }
+inline float lobe_number(std::uint32_t seed) {
+  return sampling::to_unit_float(hash(seed ^ 0x94d049bbu));
+}
 inline std::uint32_t next_seed(std::uint32_t seed) {
   return hash(seed + 0x9e3779b9u);
 }

@@ -73,6 +73,9 @@ void Shading::sample_lights(ShadingBlock& points, LightKinds kinds) const {
   kernels_.sample_lights(points, context);
   if (!lights_are_complete_)
     complete_lights(points, kinds == LightKinds::all ? lights_.triangles().size() : 0);
+  if (kinds == LightKinds::all) return;
+  // The kernels number them without the triangles.
+  for (std::uint32_t& light : points.light) light += static_cast<std::uint32_t>(lights_.triangles().size());
 }
 
 void Shading::scatter(SurfaceBlock& block, const ShadingContext& context) const {

@@ -110,7 +110,7 @@ void set_ray(RTCRay16& packet, unsigned i, const Ray& ray) {
   packet.tnear[i] = 0.0f;
   packet.tfar[i] = ray.t_max;
   packet.time[i] = ray.time;
-  packet.mask[i] = ~0u;
+  packet.mask[i] = ray.mask;
   packet.id[i] = i;
   packet.flags[i] = 0;
 }
@@ -150,6 +150,8 @@ struct Accel::State {
   RTCScene moving = nullptr;  ///< null: nothing moves
   std::vector<RTCScene> meshes;
   bool any_filter = false;
+  const RayMasks* masks = nullptr;            ///< during a build
+  std::vector<std::uint32_t> masks_of_still;  ///< by instance
 
   State() = default;
   State(const State&) = delete;
@@ -180,8 +182,9 @@ struct Accel::State {
   }
 
   /// A mesh with the filters that the coverage of the instance needs. `states`: of an open shutter, or empty.
-  RTCGeometry new_mesh(const scene::Mesh& mesh, const Coverage& coverage, std::uint32_t instance,
+  RTCGeometry new_mesh(const scene::Scene& scene, const Coverage& coverage, std::uint32_t instance,
                        const std::vector<scene::DeformedVertices>& states = {}) {
+    const scene::Mesh& mesh = scene.mesh_of(scene.instances[instance]);
     RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
     if (states.empty()) {
       set_positions(geometry, 0, mesh.positions);
@@ -199,8 +202,22 @@ struct Accel::State {
       rtcSetGeometryOccludedFilterFunction(geometry, shadow_filter);
       any_filter = true;
     }
+    rtcSetGeometryMask(geometry, scene.instances[instance].baked ? masks->of_instance(instance) : ~0u);
     rtcCommitGeometry(geometry);
     return geometry;
+  }
+
+  std::vector<std::uint32_t> all_masks(const scene::Scene& scene) const {
+    std::vector<std::uint32_t> all;
+    for (std::uint32_t i = 0; i < scene.instances.size(); ++i) all.push_back(masks->of_instance(i));
+    return all;
+  }
+  /// Whether other rays than before see some object that does not move.
+  bool sees_still_anew(const scene::Scene& scene) const {
+    for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
+      if (!scene.instances[i].moves && masks->of_instance(i) != masks_of_still[i]) return true;
+    }
+    return false;
   }
 
   static void set_transform(RTCGeometry geometry, unsigned step, const Affine& transform) {
@@ -215,9 +232,8 @@ struct Accel::State {
     RTCScene& below = meshes[mesh];
     if (!below) {
       below = new_scene();
-      RTCGeometry child = shutter.instances
-                              ? new_mesh(scene.meshes[mesh], coverage, i, shutter.vertices[mesh])
-                              : new_mesh(scene.meshes[mesh], coverage, i);
+      RTCGeometry child = shutter.instances ? new_mesh(scene, coverage, i, shutter.vertices[mesh])
+                                            : new_mesh(scene, coverage, i);
       rtcAttachGeometry(below, child);
       rtcReleaseGeometry(child);
       rtcCommitScene(below);
@@ -231,6 +247,7 @@ struct Accel::State {
     } else {
       set_transform(geometry, 0, instance.transform);
     }
+    rtcSetGeometryMask(geometry, masks->of_instance(i));
     rtcCommitGeometry(geometry);
     return geometry;
   }
@@ -242,13 +259,14 @@ struct Accel::State {
 
   /// Baked meshes lie in the top level; the others are built once each, and placed.
   void build_still(const scene::Scene& scene, const Coverage& coverage) {
+    release(still);
     still = new_scene();
-    meshes.assign(scene.meshes.size(), nullptr);
+    meshes.resize(scene.meshes.size(), nullptr);
+    masks_of_still = all_masks(scene);
     for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
       const scene::Instance& instance = scene.instances[i];
-      const scene::Mesh& mesh = scene.mesh_of(instance);
-      if (mesh.triangles.empty() || instance.moves) continue;
-      attach(still, instance.baked ? new_mesh(mesh, coverage, i) : new_instance(scene, coverage, i), i);
+      if (scene.mesh_of(instance).triangles.empty() || instance.moves) continue;
+      attach(still, instance.baked ? new_mesh(scene, coverage, i) : new_instance(scene, coverage, i), i);
     }
     rtcCommitScene(still);
   }
@@ -285,7 +303,8 @@ struct Accel::State {
   }
 };
 
-Accel::Accel(const scene::Scene& scene, const Coverage& coverage, const AccelOptions& options)
+Accel::Accel(const scene::Scene& scene, const Coverage& coverage, const RayMasks& masks,
+             const AccelOptions& options)
     : coverage_(&coverage), state_(std::make_unique<State>()) {
   State& state = *state_;
   if (!has_isa(options.isa)) {
@@ -306,6 +325,8 @@ Accel::Accel(const scene::Scene& scene, const Coverage& coverage, const AccelOpt
   rtcSetDeviceErrorFunction(state.device, State::error, &state);
   rtcSetDeviceMemoryMonitorFunction(state.device, State::monitor, &state);
 
+  require_masks(scene, masks);
+  state.masks = &masks;
   state.watertight = options.watertight;
   state.spatial_splits = options.spatial_splits;
   state.build_still(scene, coverage);
@@ -313,11 +334,24 @@ Accel::Accel(const scene::Scene& scene, const Coverage& coverage, const AccelOpt
   check(scene);
 }
 
-void Accel::update(const scene::Scene& scene, const Coverage& coverage) {
+void Accel::update(const scene::Scene& scene, const Coverage& coverage, const RayMasks& masks) {
   coverage_ = &coverage;
-  if (!scene.motion.instances) return;
+  state_->masks = &masks;
+  const bool anew = state_->sees_still_anew(scene);
+  if (anew) {
+    require_masks(scene, masks);
+    state_->build_still(scene, coverage);
+  }
+  if (!scene.motion.instances && !anew) return;
   state_->build_moving(scene, coverage);
   check(scene);
+}
+
+void Accel::require_masks(const scene::Scene& scene, const RayMasks& masks) const {
+  if (masks.all_alike() || rtcGetDeviceProperty(state_->device, RTC_DEVICE_PROPERTY_RAY_MASK_SUPPORTED) != 0)
+    return;
+  throw Unavailable(fmt::format(
+      "{}: this Embree is built without ray masks, which objects need that only some rays see", scene.path));
 }
 
 void Accel::check(const scene::Scene& scene) const {
@@ -344,7 +378,7 @@ Hit Accel::intersect(const Ray& ray) const {
   RayContext context(*coverage_, false);
   context.seeds[0] = ray.seed;
   const Vec3 &o = ray.origin, &d = ray.direction;
-  RTCRayHit one{{o.x(), o.y(), o.z(), 0.0f, d.x(), d.y(), d.z(), ray.time, ray.t_max, ~0u, 0, 0}, {}};
+  RTCRayHit one{{o.x(), o.y(), o.z(), 0.0f, d.x(), d.y(), d.z(), ray.time, ray.t_max, ray.mask, 0, 0}, {}};
   one.hit.geomID = one.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
   context.query.intersect(state_->still, one);
   if (state_->moving) context.query.intersect(state_->moving, one);

@@ -10,6 +10,7 @@
 
 #include "renderer/surface/coverage.h"
 #include "renderer/surface/ray.h"
+#include "renderer/surface/ray_masks.h"
 #include "scene/scene.h"
 
 namespace gatelight::renderer {
@@ -27,14 +28,16 @@ struct AccelOptions {
 /// Rays may be traced by several threads. Holds references to the scene's vertices and to the coverage.
 class Accel {
  public:
-  /// Throws OutOfMemory, Unavailable (the ISA), or InputError with Embree's message.
-  Accel(const scene::Scene& scene, const Coverage& coverage, const AccelOptions& options);
+  /// Throws OutOfMemory, Unavailable (the ISA, or masks), or InputError with Embree's message.
+  Accel(const scene::Scene& scene, const Coverage& coverage, const RayMasks& masks,
+        const AccelOptions& options);
   ~Accel();
   Accel(const Accel&) = delete;
   Accel& operator=(const Accel&) = delete;
 
-  /// The same scene at another time: builds what moves. Throws as the constructor does.
-  void update(const scene::Scene& scene, const Coverage& coverage);
+  /// The same scene at another time: builds what moves, and what other rays see. Throws as the constructor
+  /// does.
+  void update(const scene::Scene& scene, const Coverage& coverage, const RayMasks& masks);
 
   /// Finds the nearest hits in (0, t_max). The spans have equal sizes. Rays are traced in packets of 16 in
   /// the given order. `coherent` says that neighbours have similar directions.
@@ -52,6 +55,7 @@ class Accel {
  private:
   struct State;
 
+  void require_masks(const scene::Scene& scene, const RayMasks& masks) const;
   void check(const scene::Scene& scene) const;
 
   const Coverage* coverage_;

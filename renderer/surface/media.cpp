@@ -63,7 +63,7 @@ Media::Media(const scene::Scene& scene, bool nested_volumes, bool unrefracted_gl
   for (const std::uint32_t instance : nested.instances) {
     const scene::Material& m = scene.material_of(scene.instances[instance]);
     const int material = scene.mesh_of(scene.instances[instance]).material;
-    media_.push_back({m.ior > 0.0f ? m.ior : 1.0f, m.dispersion, inside(material)});
+    media_.push_back({m.ior > 0.0f ? m.ior : 1.0f, m.dispersion, inside(material), instance});
   }
 }
 

@@ -10,6 +10,7 @@
 
 #include "renderer/bsdf/bsdf.h"
 #include "renderer/medium/scattering_medium.h"
+#include "renderer/surface/ray.h"
 #include "scene/nested_volumes.h"
 
 namespace gatelight::renderer {
@@ -31,8 +32,14 @@ class MediumStack {
   void cross(std::uint32_t volume, bool enters) { enters ? enter(volume) : leave(volume); }
 
  private:
-  std::array<std::uint32_t, kMax> volumes_{};
+  std::array<std::uint32_t, kMax> volumes_{};  ///< the first `count_`
   std::uint8_t count_ = 0;
+};
+
+/// What a path starts in.
+struct StartMedium {
+  MediumStack volumes;
+  std::uint32_t body = kNoInstance;  ///< a surface of a body around the start that is none of the volumes
 };
 
 /// Extinction per metre inside a material: absorption, and scattering where there is any. Of light of one
@@ -44,6 +51,7 @@ struct Medium {
   float ior = 1.0f;
   float dispersion = 0.0f;
   const ScatteringMedium* inside = nullptr;  ///< null: clear
+  std::uint32_t instance = kNoInstance;      ///< that bounds it; none of air
 };
 
 class Media {
@@ -89,13 +97,20 @@ class Media {
   Medium air_;
 };
 
+/// What a path travels in, and whose it is.
+struct InsideOf {
+  const ScatteringMedium* medium = nullptr;  ///< null: clear
+  std::uint32_t instance = kNoInstance;      ///< of the body; none of air
+};
+
 /// Crosses a surface with an inside and returns what is behind it: the inside of the strongest volume there,
 /// or the surface's own, which `material` encloses, where it is none of the volumes and the ray enters it.
-inline const ScatteringMedium* cross(const Media& media, MediumStack& interior, std::uint32_t volume,
-                                     bool enters, int material) {
-  if (volume == scene::kNoVolume && enters) return media.inside(material);
+inline InsideOf cross(const Media& media, MediumStack& interior, std::uint32_t volume, bool enters,
+                      std::uint32_t instance, int material) {
+  if (volume == scene::kNoVolume && enters) return {media.inside(material), instance};
   if (volume != scene::kNoVolume) interior.cross(volume, enters);
-  return media.of(interior.strongest()).inside;
+  const Medium& strongest = media.of(interior.strongest());
+  return {strongest.inside, strongest.instance};
 }
 
 /// The share of a surface that is glass.

@@ -20,6 +20,7 @@ struct Ray {
   Vec3 direction{0.0f, 0.0f, -1.0f};  ///< unit
   std::uint32_t seed = 0;             ///< for the stochastic alpha test; equal seeds meet equal surfaces
   float time = 0.5f;                  ///< of the shutter (scene/shutter.h)
+  std::uint32_t mask = ~0u;           ///< of the instances that it meets (ray_masks.h)
   /// What a shadow ray starts in, where that counts and does not end at a surface; else null.
   const ScatteringMedium* inside = nullptr;
 };

@@ -85,7 +85,7 @@ Color ShadowTransmittance::passed(const Coverage& coverage, float distance) {
     end_at(b.t);
     at = b.t;
     light *= passage.transmittance;
-    inside = cross(media, in, b.volume, b.front, coverage.material_of(b.instance));
+    inside = cross(media, in, b.volume, b.front, b.instance, coverage.material_of(b.instance)).medium;
     here = extinction(inside);
   }
   if (distance < kInfinity || (inside && inside->box)) end_at(distance);

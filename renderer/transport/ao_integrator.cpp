@@ -27,10 +27,18 @@ void AoIntegrator::trace(std::span<const CameraSample> samples, std::span<Sample
       if (world_.separate_background) results[i].radiance = Color::Zero();
       continue;
     }
+    if (world_.holds_out(hit.instance)) {
+      if (!first_hits.empty()) first_hits[i].alpha = 0.0f;
+      results[i].radiance = Color::Zero();
+      continue;
+    }
     const RayCone& cone = samples[i].camera_ray.cone;
     const Surface surface =
         world_.surfaces.at(hit, rays[i].direction, cone.width + cone.spread * hit.t, 0.5f);
-    if (!first_hits.empty()) first_hits[i] = first_hit(hit, surface, world_.scene.origin);
+    if (!first_hits.empty()) {
+      first_hits[i] = first_hit(hit, surface, world_.scene.origin);
+      first_hits[i].depth += samples[i].camera_ray.begin;
+    }
     if (elsewhere && elsewhere(i, hit, surface, rays[i])) continue;
     if (!occlusion.add(surface, samples[i], distance_, i)) results[i].radiance = Color::Zero();
   }

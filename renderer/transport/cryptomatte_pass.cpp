@@ -83,7 +83,8 @@ Cryptomattes trace_cryptomattes(const World& world, const Camera& camera, const 
       for (const Kind& kind : kinds) {
         ids.clear();
         for (const Hit& hit : hits) {
-          if (hit && !world.catches(hit.instance)) ids.push_back(kind.ids[hit.instance]);
+          if (hit && !world.catches(hit.instance) && !world.holds_out(hit.instance))
+            ids.push_back(kind.ids[hit.instance]);
         }
         rank(ids, ranked);
         set_pixel(mattes, kind.first_layer, rect.index(pixel.x, pixel.y), ranked);

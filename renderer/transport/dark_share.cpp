@@ -36,12 +36,12 @@ PathIntegratorOptions paths_of(int bounces) {
 /// Paths of one place, and the same without bounces.
 class Eye {
  public:
-  Eye(const World& world, const View& view, const MediumStack& around, int width, int height)
+  Eye(const World& world, const View& view, const Camera& camera, int width, int height)
       : camera_(view, width, height),
         width_(width),
         lit_(world, paths_of(kBounces)),
         glow_(world, paths_of(0)) {
-    camera_.set_around(around);
+    camera_.take_surroundings(camera);
   }
 
   Place look(int number) const {
@@ -88,10 +88,10 @@ float exposure_of(const std::vector<Place>& places) {
 
 }  // namespace
 
-double dark_share(const World& world, const View& view, const MediumStack& around, double aspect) {
+double dark_share(const World& world, const View& view, const Camera& camera, double aspect) {
   const int width = std::clamp(static_cast<int>(std::lround(std::sqrt(kPlaces * aspect))), 1, kPlaces);
   const int height = kPlaces / width;
-  const Eye eye(world, view, around, width, height);
+  const Eye eye(world, view, camera, width, height);
   std::vector<Place> places(static_cast<std::size_t>(width * height));
   for_each(places.size(), [&](std::size_t i) { places[i] = eye.look(static_cast<int>(i)); });
   const float exposure = exposure_of(places);

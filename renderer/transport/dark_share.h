@@ -10,6 +10,6 @@ namespace gatelight::renderer {
 /// the exposure that suits the picture (image/auto_exposure.h); 0 where all glow. Some paths of a coarse
 /// picture estimate it, the same ones at each call. `around`: the volumes that the camera is in. Runs in the
 /// caller's arena.
-double dark_share(const World& world, const View& view, const MediumStack& around, double aspect);
+double dark_share(const World& world, const View& view, const Camera& camera, double aspect);
 
 }  // namespace gatelight::renderer

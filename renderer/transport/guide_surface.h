@@ -28,14 +28,22 @@ inline void record_guide(PathState& path, const SurfaceInteraction& m, FirstHit&
   path.sees_through = is_mirror_or_clear(m.surface.material);
 }
 
+/// The first hit of a path that has met nothing before.
+inline FirstHit first_hit(const Hit& hit, const Surface& surface, const PathState& path, const Vec3& origin) {
+  FirstHit first = renderer::first_hit(hit, surface, origin);
+  first.depth += path.previous.travelled;
+  return first;
+}
+
 /// Call it before a walk through a medium: a camera's ray has the surface behind the medium as its first hit,
 /// whether or not it is scattered on its way.
 inline void record_behind(const PathContext& context, const PathState& path, const Ray& ray, const Hit& hit,
                           FirstHit& first) {
-  if (!path.is_unscattered() || !hit || path.looks_through(context, hit)) return;
+  if (!path.is_unscattered() || !hit || path.looks_through(context, hit) || path.is_held_out(context, hit))
+    return;
   const SurfaceInteraction m(context.world, ray, hit, path.cone.width + path.cone.spread * hit.t,
                              texture_level_number(path.seed));
-  first = first_hit(hit, m.surface, context.world.scene.origin);
+  first = first_hit(hit, m.surface, path, context.world.scene.origin);
 }
 
 /// Call it where a medium has scattered a path: behind mirrors and clear glass, the last surface becomes the

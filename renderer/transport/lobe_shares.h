@@ -26,4 +26,32 @@ inline LobeShare share_of_direction(const ShadingBlock& p, int lane) {
   return {share_of(diffuse, lane_color(p.weight, lane)), rest_of(p.transmitted[lane] != 0)};
 }
 
+/// Of a light sample, what lobes reflect whose rays would see the light: the share of each channel. `lobes`
+/// become those of the rest.
+inline Color keep_visible(LobeShare& lobes, scene::RayKinds rays) {
+  const bool transmitted = lobes.rest == LobeShare::Rest::transmission;
+  const scene::RayKinds of_diffuse = transmitted ? scene::kTransmissionRays : scene::kDiffuseRays;
+  const scene::RayKinds of_rest = transmitted ? scene::kTransmissionRays : scene::kGlossyRays;
+  const Color diffuse = (rays & of_diffuse) != 0 ? lobes.diffuse : Color(Color::Zero());
+  const Color kept = diffuse + ((rays & of_rest) != 0 ? Color(1.0f - lobes.diffuse) : Color(Color::Zero()));
+  lobes.diffuse = share_of(diffuse, kept);
+  return kept;
+}
+
+/// Chooses the lobe that a sampled direction follows by its share of the light, so that the ray is of one
+/// kind. `u` is in [0, 1).
+inline void choose_lobe(LobeShare& lobes, DirectionSample& sampled, float u) {
+  const Color diffuse = lobes.diffuse * sampled.weight;
+  const float whole = luminance(sampled.weight);
+  const float share = whole > 0.0f ? luminance(diffuse) / whole : 0.0f;
+  const bool is_diffuse = u < share;
+  sampled.weight = is_diffuse ? Color(diffuse / share) : Color((sampled.weight - diffuse) / (1.0f - share));
+  lobes.diffuse.setConstant(is_diffuse ? 1.0f : 0.0f);
+  if (sampled.transmitted) {
+    sampled.kind = scene::kTransmissionRays;
+  } else {
+    sampled.kind = is_diffuse ? scene::kDiffuseRays : scene::kGlossyRays;
+  }
+}
+
 }  // namespace gatelight::renderer

@@ -167,7 +167,13 @@ class MediumWalker {
   void add(const Ray& ray, const Vec3& position, const LightSample& light, const Color& factor, int event) {
     const float value = phase(medium_.anisotropy, ray.direction.dot(light.wi));
     const float weight = value * (light.delta ? 1.0f : mis_.light_weight(light.pdf, value));
-    Ray shadow{position, light.distance, light.wi, shadow_seed(path_.seed), ray.time};
+    Ray shadow{
+        position, light.distance, light.wi, shadow_seed(path_.seed), ray.time, ray_mask(scene::kShadowRays)};
+    if (!world_.light_rules.empty()) {
+      const LightRule& rule = world_.light_rules.of_light(light.light);
+      if (!rule.lights(path_.body) || !(rule.rays & scene::kVolumeRays)) return;
+      shadow.mask = rule.shadow_mask;
+    }
     if (light.distance < kInfinity) shadow.t_max -= light.offset / light.cosine;
     shadow.inside = &medium_;
     add_light_(Color(walk_.factor * light.radiance * (factor * weight)), shadow, light.light, event);
@@ -179,11 +185,14 @@ class MediumWalker {
     const Vec3 wi = sample_phase(medium_.anisotropy, ray.direction, numbers_.next_2d());
     const float pdf = phase(medium_.anisotropy, ray.direction.dot(wi));
     path_.previous = {position, Vec3::Zero(), 0.0f, pdf, !medium_.sampled};
+    path_.previous.instance = path_.body;
+    path_.mask = ray_mask(scene::kVolumeRays);
+    path_.reach = kInfinity;
     path_.seed = next_seed(path_.seed);
     path_.cone.width += path_.cone.spread * distance;
     path_.cone.spread += (1.0f - std::abs(medium_.anisotropy)) * kDiffuseSpread;
     walk_.spread += distance / std::sqrt(pdf);
-    ray = {position, kInfinity, wi, path_.seed, ray.time};
+    ray = {position, kInfinity, wi, path_.seed, ray.time, path_.mask};
   }
 
   const World& world_;

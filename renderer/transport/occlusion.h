@@ -28,6 +28,7 @@ class OcclusionRays {
     ray.t_max = distance;
     ray.seed = hash(sample.seed + 1u);
     ray.time = sample.camera_ray.ray.time;
+    ray.mask = ray_mask(scene::kShadowRays);
     rays_.push_back(ray);
     numbers_.push_back(number);
     return true;

@@ -42,6 +42,10 @@ PathBlock* PathIntegrator::scatter(std::uint32_t number, PathState& path, Ray& r
     if (!groups.empty()) scratch.parts.add_to_group(path.index, group(), light);
     if (scratch.parts.any_passes()) scratch.parts.add_found(path.index, path.depth, background, light);
   };
+  if (hit && path.is_held_out(context_, hit)) {
+    if (first) record_background(path, *first);
+    return nullptr;
+  }
   if (!hit || path.looks_through(context_, hit)) {
     if (first) record_background(path, *first);
     const Emission sky = path.sky(context_, ray.direction);
@@ -49,7 +53,7 @@ PathBlock* PathIntegrator::scatter(std::uint32_t number, PathState& path, Ray& r
     return nullptr;
   }
   SurfaceInteraction m = path.intersect(context_, ray, hit, options_.max_depth);
-  if (first && path.is_unscattered()) *first = first_hit(hit, m.surface, context_.world.scene.origin);
+  if (first && path.is_unscattered()) *first = first_hit(hit, m.surface, path, context_.world.scene.origin);
   if (first) record_guide(path, m, *first);
   add(m.emission, false, [&] { return groups.of_instance(hit.instance); });
   if (m.ends) return nullptr;
@@ -63,8 +67,11 @@ void PathIntegrator::add_light(const PathState& path, const PathBlock& block, in
   const ShadingBlock& points = block.points;
   const Color direct = lane_color(points.direct, lane);
   if (!(direct > 0.0f).any()) return;
-  const auto [shadow, passed] =
-      path.shadow_ray(context_, block, lane, scratch.hits[block.path[lane]].instance);
+  auto [shadow, passed] = path.shadow_ray(context_, block, lane, scratch.hits[block.path[lane]].instance);
+  LobeShare lobes;
+  if (scratch.parts.any_passes() || by_lobe_) lobes = share_of_light(points, lane);
+  if (by_lobe_ && !context_.world.light_rules.empty())
+    passed *= keep_visible(lobes, context_.world.light_rules.of_light(points.light[lane]).rays);
   const Color contribution = path.carried() * direct * passed;
   const float weight = path.shadow_weight(contribution.maxCoeff(), path.contribution_threshold);
   if (!(weight > 0.0f)) return;
@@ -73,8 +80,7 @@ void PathIntegrator::add_light(const PathState& path, const PathBlock& block, in
       scratch.pending.emplace_back(PendingLight{contribution * weight, path.index, points.light[lane]});
   if (!scratch.parts.any_passes()) return;
   pending.direct = path.depth == 0;
-  pending.lobes =
-      pending.direct ? share_of_light(points, lane) : scratch.parts.first_scattering(path.index).scattered;
+  pending.lobes = pending.direct ? lobes : scratch.parts.first_scattering(path.index).scattered;
 }
 
 void PathIntegrator::shade(PathBlock& block, std::span<FirstHit> first_hits, Scratch& scratch) const {
@@ -86,9 +92,11 @@ void PathIntegrator::shade(PathBlock& block, std::span<FirstHit> first_hits, Scr
     if (!first_hits.empty()) set_albedo(path, lane_color(points.albedo, lane), first_hits[path.index]);
     add_light(path, block, lane, scratch);
     if (!points.alive[lane]) continue;
-    const DirectionSample sampled = direction_sample_at(block, lane);
+    DirectionSample sampled = direction_sample_at(block, lane);
+    LobeShare lobes;
+    if (scratch.parts.any_passes() || by_lobe_) lobes = share_of_direction(points, lane);
+    if (by_lobe_ && !sampled.through_pane) choose_lobe(lobes, sampled, lobe_number(path.seed));
     if (scratch.parts.any_passes() && path.depth == 0 && !sampled.through_pane) {
-      const LobeShare lobes = share_of_direction(points, lane);
       scratch.parts.first_scattering(path.index) = {lobes, lobes};
     }
     Ray next;

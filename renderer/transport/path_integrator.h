@@ -38,8 +38,10 @@ class PathIntegrator {
 
   /// The world must outlive the integrator.
   PathIntegrator(const World& world, const PathIntegratorOptions& options)
-      : context_(world, options.mis, options.max_transmission_depth), options_(options) {
-    if (!options.passes.empty()) context_.shading.separate_wide(kOnlyDiffuse);
+      : context_(world, options.mis, options.max_transmission_depth),
+        options_(options),
+        by_lobe_(world.masks.by_lobe()) {
+    if (!options.passes.empty() || by_lobe_) context_.shading.separate_wide(kOnlyDiffuse);
   }
 
   /// Radiance of each sample. `first_hits` is empty, or as long as the samples. Adds to `rays`. Where the
@@ -59,6 +61,7 @@ class PathIntegrator {
 
   PathContext context_;
   PathIntegratorOptions options_;
+  bool by_lobe_;
 };
 
 /// A light sample whose shadow ray has not been traced yet.

@@ -23,7 +23,10 @@ struct PathContext {
 
   PathContext(const World& where, const MisRule& rule, int max_transmissions)
       : world(where),
-        mis(rule),
+        // Bounces do not know the blockers of lights.
+        mis(world.masks.any_blockers() && rule.direct == DirectLight::mis
+                ? MisRule{DirectLight::nee, rule.heuristic}
+                : rule),
         max_transmission_depth(max_transmissions),
         shading(world.lights, world.light_arrays, world.kernels, world.requirements.sheen, mis.direct,
                 mis.heuristic) {}
@@ -82,8 +85,9 @@ struct SurfaceInteraction {
 
 /// A sampled direction. Its weight leaves out radiance_scale.
 struct DirectionSample : BsdfSample {
-  bool through_pane = false;  ///< unrefracted through a thin sheet: no scattering event
-  float survival = 1.0f;      ///< probability in Russian roulette; the weight is divided by it
+  bool through_pane = false;                   ///< unrefracted through a thin sheet: no scattering event
+  scene::RayKinds kind = scene::kDiffuseRays;  ///< of the lobe; any bounce without RayMasks::by_lobe
+  float survival = 1.0f;  ///< probability in Russian roulette; the weight is divided by it
 };
 
 /// The shadow ray of a lane's light sample.
@@ -92,7 +96,8 @@ inline Ray shadow_ray_at(const ShadingBlock& p, int lane) {
           .t_max = p.shadow_length[lane],
           .direction = lane_vector(p.light_direction, lane),
           .seed = p.shadow_seed[lane],
-          .time = p.time[lane]};
+          .time = p.time[lane],
+          .mask = ray_mask(scene::kShadowRays)};
 }
 
 /// Whether a lane's light sample lights the surface from behind.
@@ -104,6 +109,9 @@ struct PathState {
   RayCone cone;
   Color throughput{1.0f, 1.0f, 1.0f};        ///< without radiance_scale
   const ScatteringMedium* inside = nullptr;  ///< what the ray travels in; null: nothing
+  std::uint32_t body = kNoInstance;          ///< a surface of the body that it travels in
+  std::uint32_t mask = ~0u;                  ///< Ray::mask of its ray
+  float reach = kInfinity;                   ///< metres that a camera's ray may still go
   MediumStack interior;                      ///< the volumes of World::media that it travels in
   PreviousVertex previous;
   /// Product of BsdfSample::radiance_scale, which is no loss of power. In double: with hundreds of nested
@@ -125,13 +133,19 @@ struct PathState {
   PathState() = default;
   PathState(const World& world, const CameraSample& start, std::size_t which)
       : cone(start.camera_ray.cone),
-        inside(world.media.of(start.around.strongest()).inside),
-        interior(start.around),
+        mask(start.camera_ray.ray.mask),
+        reach(start.camera_ray.ray.t_max),
+        interior(start.start.volumes),
         sampler(start.sampler),
         index(static_cast<std::uint32_t>(which)),
         contribution_threshold(start.contribution_threshold),
         seed(start.seed) {
     previous.position = start.camera_ray.ray.origin;
+    previous.travelled = start.camera_ray.begin;
+    const Medium& around = world.media.of(interior.strongest());
+    body = start.start.body != kNoInstance ? start.start.body : around.instance;
+    inside = start.start.body != kNoInstance ? world.media.inside(world.coverage.material_of(body))
+                                             : around.inside;
   }
 
   /// Factor from radiance at the path's position to radiance at its start, without losses of power.
@@ -146,6 +160,10 @@ struct PathState {
   bool looks_through(const PathContext& context, const Hit& hit) const {
     return surfaces == 0 && context.world.catches(hit.instance);
   }
+  /// Whether the camera sees a hole there.
+  bool is_held_out(const PathContext& context, const Hit& hit) const {
+    return depth == 0 && context.world.holds_out(hit.instance);
+  }
 
   /// The share of the background in the sample, for a ray that leaves the scene: above zero only without a
   /// scattering event.
@@ -154,6 +172,7 @@ struct PathState {
   /// The emission of the sky for a ray that leaves the scene.
   Emission sky(const PathContext& context, const Vec3& direction) const {
     if (context.world.separate_background && depth == 0) return {};
+    if (!context.world.light_rules.empty() && !sees(context.world.light_rules.of_environment())) return {};
     Emission sky{context.world.environment.radiance(direction)};
     if (sky.any()) sky.weight = sky_weight(context.world, context.mis, previous, direction);
     return sky;
@@ -179,6 +198,9 @@ struct PathState {
     if (m.unrefracted) remove_refraction(surface.material);
     if (surface.material.dispersion > 0.0f && !m.unrefracted) disperse(m);
     m.emission.radiance = surface.emission;
+    const LightRules& rules = context.world.light_rules;
+    if (!rules.empty() && m.emission.any() && !surface.unlit && !sees(rules.of_instance(hit.instance)))
+      m.emission.radiance.setZero();
     if (m.emission.any())
       m.emission.weight = emission_weight(context.world, context.mis, previous, hit, surface, ray.direction);
     if (depth >= max_depth) emission_only = true;
@@ -191,6 +213,11 @@ struct PathState {
   /// Whether the kernels can shade the surface: SurfaceBlock::scalar is empty then.
   bool kernels_shade(const SurfaceInteraction& m) const {
     return !emission_only && !m.unrefracted && !m.same_medium && renderer::kernels_shade(m.surface);
+  }
+
+  /// Whether the path's ray finds the light of an emitter in its way.
+  bool sees(const LightRule& emitter) const {
+    return (mask & ray_mask(emitter.rays)) != 0 && (depth == 0 || emitter.lights(previous.instance));
   }
 
   /// Adds the path to a block that is not full. `which` is the caller's number of the path.
@@ -218,12 +245,18 @@ struct PathState {
     block.crossing[static_cast<std::size_t>(lane)] = {m.volume, m.unrefracted, m.same_medium};
   }
 
-  /// The shadow ray of a lane's light sample, and the transmittance of the medium in which it starts. The
-  /// transmittance is one where the ray may leave the medium before it arrives: in fog, and where shadow rays
-  /// pass glass with an inside. Then Ray::inside makes the ray apply it.
+  /// The shadow ray of a lane's light sample, and the transmittance of the medium in which it starts: zero
+  /// where the light does not concern the surface. The transmittance is one where the ray may leave the
+  /// medium before it arrives: in fog, and where shadow rays pass glass with an inside. Then Ray::inside
+  /// makes the ray apply it.
   std::pair<Ray, Color> shadow_ray(const PathContext& context, const PathBlock& block, int lane,
                                    std::uint32_t instance) const {
     Ray ray = shadow_ray_at(block.points, lane);
+    if (const LightRules& rules = context.world.light_rules; !rules.empty()) {
+      const LightRule& rule = rules.of_light(block.points.light[lane]);
+      if (!rule.lights(instance) || (rule.rays & scene::kBounceRays) == 0) return {ray, Color::Zero()};
+      ray.mask = rule.shadow_mask;
+    }
     const ScatteringMedium* const medium = medium_towards_light(context, block, lane, instance);
     if (!medium) return {ray, Color::Ones()};
     if (medium->box || context.world.coverage.unrefracted_glass()) {
@@ -251,6 +284,7 @@ struct PathState {
     throughput *= sampled.weight;
     const bool without_mis = !block.scalar.empty() && leave(context, block, lane, sampled, hit.instance);
     if (sampled.through_pane) {
+      reach -= hit.t;
       previous.travelled += hit.t;
       previous.panes += 1;
       previous.without_mis |= without_mis;
@@ -259,11 +293,14 @@ struct PathState {
       transmissions += sampled.transmitted ? 1 : 0;
       previous = {lane_vector(p.position, lane), light_normal(p, lane), 0.0f, sampled.pdf,
                   sampled.delta || without_mis};
+      previous.instance = hit.instance;
+      reach = kInfinity;
+      mask = ray_mask(sampled.kind);
     }
     surfaces += 1;
     if (surfaces > depth + kMaxPassed || transmissions > context.max_transmission_depth) return false;
     seed = next_seed(seed);
-    ray = {lane_vector(p.next_origin, lane), kInfinity, sampled.wi, seed, hit.time};
+    ray = {lane_vector(p.next_origin, lane), reach, sampled.wi, seed, hit.time, mask};
     cone.width = block.cone_width[lane];
     if (!sampled.through_pane) cone.spread += sampled.spread * kDiffuseSpread;
     return true;
@@ -307,7 +344,8 @@ struct PathState {
       return inside;
     MediumStack there = interior;
     return cross(context.world.media, there, block.crossing[static_cast<std::size_t>(lane)].volume,
-                 block.front[lane], context.world.coverage.material_of(instance));
+                 block.front[lane], instance, context.world.coverage.material_of(instance))
+        .medium;
   }
 
   /// Whether a path that passes a lane's surface enters or leaves a medium there.
@@ -324,8 +362,10 @@ struct PathState {
     const PathBlock::Crossing& m = block.crossing[static_cast<std::size_t>(lane)];
     radiance_scale *= static_cast<double>(scalar.radiance_scale);
     if (sampled.transmitted && changes_medium(block, lane)) {
-      inside = cross(context.world.media, interior, m.volume, block.front[lane],
-                     context.world.coverage.material_of(instance));
+      const InsideOf next = cross(context.world.media, interior, m.volume, block.front[lane], instance,
+                                  context.world.coverage.material_of(instance));
+      inside = next.medium;
+      body = next.instance;
     }
     return (m.same_medium && !m.unrefracted) || (sampled.transmitted && scalar.front_lights);
   }

@@ -32,8 +32,9 @@ struct PreviousVertex {
   /// The direction came from the camera, a delta lobe, or refraction beside unrefracted glass: no light
   /// sample competes.
   bool delta = true;
-  int panes = 0;             ///< between `position` and the ray's origin
-  bool without_mis = false;  ///< one of these panes stops shadow rays
+  int panes = 0;                         ///< between `position` and the ray's origin
+  bool without_mis = false;              ///< one of these panes stops shadow rays
+  std::uint32_t instance = kNoInstance;  ///< of the vertex, or of the body whose medium it is in
 
   /// Whether a light sample from `position` could have found the same light.
   bool competes() const { return !delta && !without_mis && panes <= kMaxPanes; }
@@ -67,6 +68,7 @@ inline Ray shadow_ray(const Surface& surface, const LightSample& light, std::uin
   ray.t_max = light.distance - (light.offset + 2.0f * surface.offset) / light.cosine;
   ray.seed = shadow_seed(seed);
   ray.time = time;
+  ray.mask = ray_mask(scene::kShadowRays);
   if (!(ray.t_max > 0.0f)) ray.t_max = 0.5f * light.distance;
   return ray;
 }

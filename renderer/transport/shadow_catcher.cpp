@@ -11,7 +11,7 @@
 namespace gatelight::renderer {
 namespace {
 
-/// A part of the unshadowed light of a pixel. A shadow ray decides whether it arrives.
+/// A part of the unshadowed light of a pixel. Its shadow ray decides whether it arrives.
 struct Pending {
   std::size_t pixel;
   float light;
@@ -37,30 +37,43 @@ class Catcher {
         world_.lights.sample(surface.position, n, sampler.get_1d(first + dimension::kLightChoice),
                              sampler.get_2d(first + dimension::kLightPoint), hit.time);
     const float cosine = n.dot(light.wi);
-    if (light.pdf > 0.0f && cosine > 0.0f) {
+    const LightRules& rules = world_.light_rules;
+    const auto catches = [&](const LightRule& rule) {
+      return (rule.rays & scene::kDiffuseRays) != 0 && rule.lights(hit.instance);
+    };
+    if (light.pdf > 0.0f && cosine > 0.0f && (rules.empty() || catches(rules.of_light(light.light)))) {
       const bool sky = !light.delta && light.distance == kInfinity;
       const float weight = sky ? light.pdf / (light.pdf + cosine * kInvPi) : 1.0f;
-      trace(pixel, shadow_ray(surface, light, sample.seed, hit.time),
-            kInvPi * cosine * weight * luminance(light.radiance) / light.pdf);
+      Ray shadow = shadow_ray(surface, light, sample.seed, hit.time);
+      if (!rules.empty()) shadow.mask = rules.of_light(light.light).shadow_mask;
+      trace(pixel, shadow, kInvPi * cosine * weight * luminance(light.radiance) / light.pdf);
     }
     // Light samples may leave out the sky, so a bounce samples it too.
+    if (!rules.empty() && !catches(rules.of_environment())) return;
     const Vec3 local = sample_cosine_hemisphere(sampler.get_2d(first + dimension::kBsdfDirection));
     const Vec3 wi = Basis(n).to_world(local);
     const float density = kInvPi * std::max(local.z(), 0.0f);
     if (!(density > 0.0f)) return;
-    Ray open{surface.spawn(wi), kInfinity, wi, hash(sample.seed ^ 0x63617463u), hit.time};
+    Ray open{surface.spawn(wi),
+             kInfinity,
+             wi,
+             hash(sample.seed ^ 0x63617463u),
+             hit.time,
+             rules.empty() ? ray_mask(scene::kShadowRays) : rules.of_environment().shadow_mask};
     trace(pixel, open,
           luminance(world_.environment.radiance(wi)) * density /
               (density + world_.lights.pdf_environment(surface.position, n, wi)));
   }
 
   void finish() {
-    std::vector<Color> transmittance(rays_.size());
+    std::vector<Color> transmittance(rays_.size()), by_catchers(rays_.size());
     world_.accel.transmittance(rays_, transmittance);
+    for (Ray& ray : rays_) ray.mask = kCatcherMask;
+    world_.accel.transmittance(rays_, by_catchers);
     for (std::size_t i = 0; i < rays_.size(); ++i) {
       Sums& sums = sums_[pending_[i].pixel];
       const auto light = static_cast<double>(pending_[i].light);
-      sums.unshadowed += light;
+      sums.unshadowed += light * static_cast<double>(luminance(by_catchers[i]));
       sums.lit += light * static_cast<double>(luminance(transmittance[i]));
     }
     rays_.clear();

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <utility>
 #include <vector>
 
 #include "scene/scene.h"
@@ -51,36 +50,13 @@ std::string view_warning(const World& world, const Camera& camera, int width, in
 }
 
 float distance_in_the_middle(const World& world, const Camera& camera, int width, int height) {
-  const Ray ray = camera.ray(0.5f * static_cast<float>(width), 0.5f * static_cast<float>(height)).ray;
+  const auto [ray, cone, begin] = camera.ray(0.5f * static_cast<float>(width), 0.5f * static_cast<float>(height));
   Hit hit;
   world.accel.intersect({&ray, 1}, {&hit, 1}, true);
-  if (hit) return hit.t;
+  if (hit) return begin + hit.t;
   if (world.scene.bounds.isEmpty()) return 1.0f;
   const float along = (world.scene.bounds.center() - ray.origin).dot(ray.direction);
   return along > 0.0f ? along : world.scene.bounds.diagonal().norm();
-}
-
-MediumStack volumes_around(const World& world, const Vec3& point) {
-  MediumStack around;
-  if (world.media.empty()) return around;
-  Ray ray;
-  ray.origin = point;
-  ray.direction = Vec3(0.48f, 0.64f, 0.6f);
-  std::vector<char> met(world.scene.instances.size(), 0);  // by volume: at most one for each instance
-  constexpr int kMaxSurfaces = 4096;
-  for (int i = 0; i < kMaxSurfaces; ++i) {
-    Hit hit;
-    world.accel.intersect({&ray, 1}, {&hit, 1}, false);
-    if (!hit) break;
-    const std::uint32_t volume = world.media.volume_of(hit.instance);
-    const Vec3 normal = scene::world_normal(world.scene, world.scene.instances[hit.instance], hit.primitive);
-    const float cosine = normal.dot(ray.direction);
-    if (volume != scene::kNoVolume && !std::exchange(met[volume], 1) && cosine > 0.0f) around.enter(volume);
-    // The offset is along the ray: smooth surfaces are raised for shading.
-    const float offset = world.surfaces.at(hit, ray.direction, 0.0f, 0.0f).offset;
-    ray.origin += ray.direction * (hit.t + 2.0f * offset / std::max(std::abs(cosine), 1e-2f));
-  }
-  return around;
 }
 
 }  // namespace gatelight::renderer

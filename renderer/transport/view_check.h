@@ -17,7 +17,4 @@ std::string view_warning(const World& world, const Camera& camera, int width, in
 /// of the scene.
 float distance_in_the_middle(const World& world, const Camera& camera, int width, int height);
 
-/// The volumes of World::media around a point: those that a ray from there leaves before it enters them.
-MediumStack volumes_around(const World& world, const Vec3& point);
-
 }  // namespace gatelight::renderer

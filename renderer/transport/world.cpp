@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <sstream>
 #include <string>
 
 #include "base/errors.h"
+#include "scene/light_names.h"
 
 namespace gatelight::renderer {
 namespace {
@@ -24,20 +26,51 @@ std::vector<std::string> names_of(const scene::Scene& scene) {
   return names;
 }
 
+std::vector<std::string> split(const std::string& text, char separator) {
+  std::vector<std::string> parts;
+  std::istringstream stream(text);
+  for (std::string part; std::getline(stream, part, separator);) parts.push_back(part);
+  return parts;
+}
+
 /// The value of World::catchers.
 std::vector<std::uint8_t> find_catchers(const scene::Scene& scene, const BackgroundOptions& background) {
-  const std::string& node = background.shadow_catcher;
-  if (node.empty()) return {};
-  if (!background.is_separate())
-    throw BadOption(
-        {"shadow-catcher", node, "needs a picture with alpha", "`background` transparent, r,g,b or FILE"});
+  const std::vector<std::string> nodes = split(background.shadow_catcher, ';');
+  if (!background.is_separate()) {
+    if (nodes.empty()) return {};
+    throw BadOption({"shadow-catcher", nodes.front(), "needs a picture with alpha",
+                     "`background` transparent, r,g,b or FILE"});
+  }
   std::vector<std::uint8_t> catchers;
-  for (const scene::Instance& instance : scene.instances) catchers.push_back(instance.name == node ? 1 : 0);
-  if (std::find(catchers.begin(), catchers.end(), 1) == catchers.end()) {
-    throw BadOption({"shadow-catcher", node, fmt::format("is not an object of {}", scene.path),
+  std::vector<bool> used(nodes.size(), false);
+  for (const scene::Instance& instance : scene.instances) {
+    bool catches = instance.visibility.shadow_catcher;
+    for (std::size_t n = 0; n < nodes.size(); ++n) {
+      if (!scene::fits_light_name(nodes[n], instance.name)) continue;
+      used[n] = catches = true;
+    }
+    catchers.push_back(catches ? 1 : 0);
+  }
+  const auto unused = std::find(used.begin(), used.end(), false);
+  if (unused != used.end()) {
+    throw BadOption({"shadow-catcher", nodes[static_cast<std::size_t>(unused - used.begin())],
+                     fmt::format("is not an object of {}", scene.path),
                      fmt::format("one of '{}'", fmt::join(names_of(scene), "', '"))});
   }
+  if (std::find(catchers.begin(), catchers.end(), 1) == catchers.end()) return {};
   return catchers;
+}
+
+/// The value of World::warning.
+std::string catcher_warning(const scene::Scene& scene, const BackgroundOptions& background) {
+  if (background.is_separate()) return "";
+  for (const scene::Instance& instance : scene.instances) {
+    if (instance.visibility.shadow_catcher)
+      return fmt::format(
+          "{}: '{}' is shown itself, because shadow catchers need `background` transparent, r,g,b or FILE",
+          scene.path, instance.name);
+  }
+  return "";
 }
 
 /// Those that are built before the coverage.
@@ -50,13 +83,20 @@ ReusableParts reusable_parts(const scene::Scene& scene, const WorldOptions& opti
 }
 
 const Accel& updated(std::shared_ptr<Accel>& accel, const scene::Scene& scene, const Coverage& coverage,
-                     const AccelOptions& options) {
+                     const RayMasks& masks, const AccelOptions& options) {
   if (accel) {
-    accel->update(scene, coverage);
+    accel->update(scene, coverage, masks);
   } else {
-    accel = std::make_shared<Accel>(scene, coverage, options);
+    accel = std::make_shared<Accel>(scene, coverage, masks, options);
   }
   return *accel;
+}
+
+/// Where shadow rays and bounces see different objects, one of the two finds a constant sky: bounces, as in
+/// Cycles, unless lights have blockers of their own.
+std::optional<bool> sampled_sky(const RayMasks& masks) {
+  if (masks.any_blockers()) return true;
+  return masks.shadows_differ() ? std::optional(false) : std::nullopt;
 }
 
 /// Fog fills the bounds of the scene and of its lamps, and a little more, so that their surfaces are inside.
@@ -88,13 +128,18 @@ World::World(const scene::Scene& scene_in, const WorldOptions& options, const Re
       environment(*lasting.environment),
       coverage(scene, textures, media, options.glass_shadows == GlassShadows::straight),
       surfaces(scene, textures),
-      accel(updated(lasting.accel, scene, coverage, options.acceleration)),
-      lights(scene, textures, environment, options.light_selection),
+      catchers(find_catchers(scene, options.background)),
+      masks(scene, catchers),
+      accel(updated(lasting.accel, scene, coverage, masks, options.acceleration)),
+      lights(scene, textures, environment, options.light_selection, sampled_sky(masks)),
+      light_rules(scene, lights, masks),
       light_arrays(lights),
       kernels(choose_shading_kernels(options.acceleration.isa)),
       light_groups(options.light_groups, scene, lights),
+      any_holdout(std::any_of(scene.instances.begin(), scene.instances.end(),
+                              [](const auto& instance) { return instance.visibility.holdout; })),
       separate_background(options.background.is_separate()),
-      catchers(find_catchers(scene, options.background)) {}
+      warning(catcher_warning(scene, options.background)) {}
 
 bool World::is_dark() const {
   return lights.empty() &&

@@ -3,16 +3,19 @@
 
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "renderer/light/environment.h"
 #include "renderer/light/light_groups.h"
+#include "renderer/light/light_rules.h"
 #include "renderer/light/lights.h"
 #include "renderer/shading/light_arrays.h"
 #include "renderer/shading/shading.h"
 #include "renderer/surface/accel.h"
 #include "renderer/surface/coverage.h"
 #include "renderer/surface/media.h"
+#include "renderer/surface/ray_masks.h"
 #include "renderer/surface/surface.h"
 #include "renderer/surface/texture.h"
 #include "scene/requirements.h"
@@ -57,17 +60,24 @@ struct World {
   const Environment& environment;
   Coverage coverage;
   Surfaces surfaces;
+  /// 1 for shadow catchers, which are not visible themselves; empty without any.
+  std::vector<std::uint8_t> catchers;
+  RayMasks masks;
   const Accel& accel;
   Lights lights;
+  LightRules light_rules;
   LightArrays light_arrays;
   const ShadingKernels& kernels;
   LightGroups light_groups;  ///< empty unless the parts of a picture are requested
+  bool any_holdout;
   bool separate_background;  ///< the environment lights the scene, but is invisible to the camera
-  /// 1 for shadow catchers, which are not visible themselves; empty without any.
-  std::vector<std::uint8_t> catchers;
+  std::string warning;       ///< about catchers that are not caught; else empty
   /// Whether all pictures are black: no light, and no surface that shows its own colour (unlit).
   bool is_dark() const;
   bool catches(std::uint32_t instance) const { return !catchers.empty() && catchers[instance] != 0; }
+  bool holds_out(std::uint32_t instance) const {
+    return any_holdout && scene.instances[instance].visibility.holdout;
+  }
 };
 
 }  // namespace gatelight::renderer
