@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "apps/reports/visibility_report.h"
 #include "apps/settings/parsing.h"
 #include "apps/terminal/errors.h"
 #include "apps/terminal/text.h"
@@ -270,6 +271,10 @@ std::string scene_report_text(const scene::Scene& scene, const SceneRequirements
   if (requirements.nested_volumes) rows.add_list("nested media", describe_media(scene, requirements));
   if (const std::vector<std::string> media = describe_scattering(scene); !media.empty())
     rows.add_list("scattering", media);
+  if (const std::vector<std::string> lines = describe_visibility(scene); !lines.empty())
+    rows.add_list("visibility", lines);
+  if (const std::vector<std::string> lines = describe_light_links(scene); !lines.empty())
+    rows.add_list("light links", lines);
   rows.add("bounds", describe_bounds(file_bounds(scene)));
   rows.add("requires", describe_requirements(requirements));
   rows.add("memory", fmt::format("geometry {}, images {}; rendering with default options needs about {}",
@@ -312,6 +317,8 @@ ordered_json scene_report_json(const scene::Scene& scene, const SceneRequirement
                                     {"ior", shortest(scene.material_of(*instance).ior)},
                                     {"priority", shortest(instance->dielectric_priority)}});
   }
+  json["visibility"] = visibility_json(scene);
+  json["light_links"] = light_links_json(scene);
   json["cameras"] = ordered_json::array();
   for (const scene::Camera& camera : scene.cameras) {
     json["cameras"].push_back(camera_json(camera, scene.origin));

@@ -4,7 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "apps/settings/option.h"
 #include "renderer/settings/light_group_options.h"
 #include "renderer/settings/sky_options.h"
 #include "scene/light_adjustments.h"
@@ -29,10 +28,5 @@ std::string text_of(const std::vector<scene::LightProfile>& profiles);
 
 /// Reads "NAME=LIGHT,LIGHT;NAME=LIGHT", or "none", with the same exceptions.
 std::vector<renderer::LightGroup> read_light_groups(const std::string& option, const std::string& text);
-
-/// The value of an option that is such a list: its text, or none.
-inline constexpr auto list_value = [](const auto& list) -> OptionValue {
-  return list.empty() ? OptionValue() : text_of(list);
-};
 
 }  // namespace gatelight::apps

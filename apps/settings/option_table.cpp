@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <iterator>
 
-#include "apps/settings/light_flags.h"
+#include "apps/settings/list_value.h"
 #include "apps/settings/picture_options.h"
 
 namespace gatelight::apps {
@@ -69,7 +69,8 @@ Option by_hand(const char* name, std::optional<std::array<float, 3>>& member,
 void add_load_options(OptionGroup& group, scene::LoadOptions& load) {
   // All transforms are baked; --shutter and --threads of the picture set the other two.
   [[maybe_unused]] auto& [scene, variant, time, shutter, animation, missing_is_error, allow_external, ignored,
-                          show_hidden, back_faces, lights, profiles, bake_transforms, threads] = load;
+                          show_hidden, back_faces, lights, profiles, visibility, light_links, bake_transforms,
+                          threads] = load;
   const auto add = [&](Option option, Marks marks = {}) -> Option& {
     marks.stage = OptionStage::load;
     return group.add(std::move(option), std::move(marks));
@@ -98,6 +99,21 @@ void add_load_options(OptionGroup& group, scene::LoadOptions& load) {
       "IES profiles (LM-63, type C) for point and spot lights of the file, by name as in --lights. The light "
       "points along its node's -z, keeps its intensity in the brightest direction, and loses its cone",
       list_value, read_profiles));
+  add(read_by(
+          "visibility", visibility, "NAME=RAYS:on|off|only,...;...",
+          "Which rays see objects, lamps of the file and the environment, by name as in --lights: "
+          "\"wall*=camera:off;decoy=shadow:only;environment=camera:off\". RAYS: camera, diffuse, glossy, "
+          "reflections (both), transmission, volume, bounces (these four), shadow; or holdout (on or off), "
+          "which leaves a black hole with alpha 0",
+          list_value, read_visibility),
+      {.in_window = true});
+  add(read_by(
+          "light-links", light_links, "LIGHT=receivers:NODE+NODE,blockers:NODE;...",
+          "Which objects a light or emissive material of the file, or the environment, lights (receivers, "
+          "or all but not-receivers), and which cast shadows in its light (blockers, not-blockers): "
+          "\"key=receivers:hero*+floor;sun=not-blockers:glass*;environment=blockers:wall\"",
+          list_value, read_light_links),
+      {.in_window = true});
   add(choice("missing", missing_is_error, kMissing,
              "Whether an unreadable texture is an error or a warning"));
   add(external_option(allow_external));

@@ -7,7 +7,7 @@
 #include <limits>
 #include <map>
 
-#include "apps/settings/light_flags.h"
+#include "apps/settings/list_value.h"
 #include "apps/settings/parsing.h"
 #include "base/errors.h"
 

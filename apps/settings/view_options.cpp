@@ -93,6 +93,18 @@ std::string aperture_text(const LensOptions& lens) {
   return lens.f_stop > 0.0f ? fmt::format("f/{}", lens.f_stop) : fmt::format("{}", lens.aperture);
 }
 
+void read_clip(Clip& clip, const std::string& option, const std::string& text) {
+  const std::size_t comma = text.find(',');
+  if (comma == std::string::npos) throw BadOption({option, text, "", "NEAR,FAR, such as 0.1,100 or 0.1,inf"});
+  const std::string far = text.substr(comma + 1);
+  clip.near = static_cast<float>(parse_real(option, text.substr(0, comma), kNotNegative));
+  clip.far = far == "inf" ? kInfinity : static_cast<float>(parse_real(option, far, kNotNegative));
+}
+
+OptionValue clip_value(const Clip& clip) {
+  return clip == Clip() ? OptionValue() : fmt::format("{},{}", clip.near, clip.far);
+}
+
 void add_lens_options(OptionGroup& view, LensOptions& lens) {
   [[maybe_unused]] auto& [aperture, f_stop, focus, blades] = lens;  // one flag sets the first two
   view.add(read_by("aperture", lens, "f/N|METRES",
@@ -114,8 +126,8 @@ void add_view_options(std::vector<Option>& table, renderer::CameraOptions& camer
                       renderer::EnvironmentOptions& environment, renderer::BackgroundOptions& background) {
   OptionGroup view{table, "Scene and view"};
   // Flags of the application set look_at, frames set turn.
-  [[maybe_unused]] auto& [name, index, look_at, fov_degrees, focal_mm, projection, view_height, lens, turn,
-                          turn_in_shutter] = camera;
+  [[maybe_unused]] auto& [name, index, look_at, fov_degrees, focal_mm, projection, view_height, lens, clip,
+                          turn, turn_in_shutter] = camera;
   view.add(any_word("camera", name, "NAME|INDEX",
                     "Camera of the file: its name, its node's name or its index (default: the first); 'all' "
                     "renders all cameras, with {camera} in the names of the outputs"),
@@ -136,6 +148,10 @@ void add_view_options(std::vector<Option>& table, renderer::CameraOptions& camer
                      "METRES", "Height of the visible area of an orthographic picture"),
            {.of_view = true});
   add_lens_options(view, lens);
+  view.add(read_by("clip", clip, "NEAR,FAR",
+                   "Distances along the view in metres between which the camera sees (default: 0,inf)",
+                   clip_value, read_clip),
+           {.of_view = true});
   [[maybe_unused]] auto& [automatic, file, constant, sky, rotation_degrees, scale, fog] =
       environment;  // one flag sets the first three
   view.add(read_by("environment", environment, "auto|none|r,g,b|FILE",
@@ -165,9 +181,9 @@ void add_view_options(std::vector<Option>& table, renderer::CameraOptions& camer
               "(transparent), a constant radiance or a picture. Mirrors and solid glass show the environment",
               background_value, read_background),
       {.common = true, .in_window = true, .of_denoise = true});
-  view.add(any_word("shadow-catcher", shadow_catcher, "NODE",
-                    "With a --background other than scene: an object of the file that is invisible except "
-                    "for the shadows on it"));
+  view.add(any_word("shadow-catcher", shadow_catcher, "NODE;...",
+                    "With a --background other than scene: objects of the file that are invisible except "
+                    "for the shadows on them; a '*' at the end of a name matches any ending"));
   view.add(number("environment-rotation", rotation_degrees, kAnyFloat, "DEGREES",
                   "Rotation of the environment about +y, counter-clockwise from above"),
            {.in_window = true});

@@ -153,7 +153,7 @@ renderer::RenderOptions ViewSession::options_of(const Task& task) const {
 }
 
 void ViewSession::prepare(const Task& task) {
-  const bool moved = scene_.show(task.settings.load.time.value_or(0.0), task.settings.load.lights);
+  const bool moved = scene_.show(task.settings.load.time.value_or(0.0), changes_of(task.settings.load));
   const bool same_environment = environment_ == task.settings.render.environment;
   environment_ = task.settings.render.environment;
   new_light_ = new_light_ || moved || !same_environment || !shares_cache_;

@@ -53,8 +53,8 @@ def load(path, **options):
     """Load a .gltf or .glb file. Returns a Scene.
 
     Options: time (seconds: the moment of its animations), animation, variant, scene_index, show_hidden, backfaces,
-    lights, ies, missing, allow_external, ignore_required, shutter and fps (motion blur), threads. They are those of
-    `gatelight render`; gatelight.options() explains them.
+    lights, ies, visibility, light_links, missing, allow_external, ignore_required, shutter and fps (motion blur),
+    threads. They are those of `gatelight render`; gatelight.options() explains them.
     """
     return _gatelight.load(os.fspath(path), options)
 

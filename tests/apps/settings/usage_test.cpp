@@ -158,6 +158,8 @@ const std::vector<BadValue> kBadValues = {
     {{"--lights", "lamp=-1"}, {"--lights", "-1", "0"}},
     {{"--lights", "lamp=1,2"}, {"--lights", "1,2"}},
     {{"--lights", "lamp=off;"}, {"--lights", "''", "NAME=off"}},
+    {{"--visibility", "wall=camera:no"}, {"--visibility", "no", "on|off|only"}},
+    {{"--light-links", "key=receivers"}, {"--light-links", "key=receivers", "LIGHT=receivers:NODE+NODE"}},
     {{"--light-groups", "key"}, {"--light-groups", "key", "NAME=LIGHT"}},
     {{"--eye", "1,2", "--target", "0,0,0"}, {"--eye", "1,2"}},
     {{"--eye", "1,2,3"}, {"--target", "eye"}},

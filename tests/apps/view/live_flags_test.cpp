@@ -34,6 +34,15 @@ TEST(LiveFlags, ThatExcludeEachOtherDoNotStay) {
   EXPECT_EQ(changed({{"lens", "50"}}, {{"fov", "40"}}), (LiveFlags{{"fov", "40"}}));
 }
 
+TEST(LiveFlags, SayWhatRaysSeeAndWhomLightsConcern) {
+  const RenderSettings settings =
+      settings_of("a.glb", {"--visibility=a=camera:off"},
+                  changed({}, {{"visibility", "b=shadow:off"}, {"light-links", "key=receivers:a"}}));
+  ASSERT_EQ(settings.load.visibility.size(), 1u);
+  EXPECT_EQ(settings.load.visibility[0].name, "b");
+  EXPECT_EQ(settings.load.light_links.at(0).light, "key");
+}
+
 TEST(LiveFlags, RefuseWhatAWindowDoesNotChange) {
   for (const char* name : {"output", "cache-out", "oidn", "config", "threads", "checkpoint", "", "x\n"})
     EXPECT_THROW(changed({}, {{name, "x"}}), BadOption) << name;
