@@ -30,8 +30,8 @@ def border(render, width, height):
     return left, bottom, max(right, left + 1), max(top, bottom + 1)
 
 
-def add(document, node, camera, render, notes):
-    """Sets the camera of the document's node. Returns the flags of the view, and its lens."""
+def add(document, node, camera, render, corners, notes):
+    """Sets the camera of the document's node. Returns the flags of the view, and its lens. `corners` bound what is rendered."""
     width, height = picture_size(render)
     fit = _fitted(camera.data, width, height)
     size, (x, y) = units.shifted_frame(width, height, camera.data.shift_x, camera.data.shift_y, fit)
@@ -51,7 +51,7 @@ def add(document, node, camera, render, notes):
             notes.add(f"camera '{camera.name}'", f"a panorama of the kind {kind}; it is latitude-longitude")
     perspective = document.json["cameras"][node["camera"]].get("perspective") if camera.data.type == "PERSP" else None
     slope = math.tan(0.5 * perspective["yfov"]) / (0.5 * size[1]) if perspective else 0.0
-    return flags + _blur(camera, notes), Lens(size, slope)
+    return flags + _clip(camera, corners) + _blur(camera, notes), Lens(size, slope)
 
 
 def _fitted(data, width, height):
@@ -67,6 +67,13 @@ def _projection(data, width, height, size):
     fov = units.vertical_fov(data.lens, data.sensor_width, data.sensor_height, data.sensor_fit, width, height)
     fov = 2.0 * math.atan(math.tan(0.5 * fov) * size[1] / height)
     return {"name": CAMERA, "type": "perspective", "perspective": {"yfov": fov, "aspectRatio": size[0] / size[1], "znear": 1e-3}}
+
+
+def _clip(camera, corners):
+    """Where nothing is too far, nothing is, so that a sun's disc is in view."""
+    reach = max(((corner - camera.matrix_world.translation).length for corner in corners), default=0.0)
+    far = f"{camera.data.clip_end:.9g}" if reach > camera.data.clip_end else "inf"
+    return ["--clip", f"{camera.data.clip_start:.9g},{far}"]
 
 
 def _blur(camera, notes):

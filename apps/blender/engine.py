@@ -140,8 +140,6 @@ class GatelightEngine(bpy.types.RenderEngine):
 
     def _fill(self, job, layer, path, wanted):
         picture = exr.read(path)
-        if job.exported.holdouts:
-            passes.hold_out(picture, job.exported.holdouts)
         passes.flatten_depth(picture, job.exported.lens)
         height, width = picture.layers[""].shape[:2]
         result = self.begin_result(0, 0, width, height, layer=layer.name)

@@ -8,7 +8,7 @@ import os
 import bpy
 from mathutils import Matrix, Vector
 
-from . import camera, exporter_hooks, gltf_document, lights, materials, passes, world
+from . import camera, exporter_hooks, gltf_document, lights, materials, passes, visibility, world
 
 SOLID = {"MESH", "CURVE", "SURFACE", "META", "FONT"}
 SILENT = {"EMPTY", "CAMERA", "LIGHT", "ARMATURE", "LATTICE", "SPEAKER", "LIGHT_PROBE"}  # nothing of them is lost
@@ -19,10 +19,19 @@ class Unusable(Exception):
 
 
 @dataclasses.dataclass
+class Placed:
+    """A node of the file, its object in Blender, what places that (visibility.holder_of), and whether the render shows it."""
+    node: dict
+    thing: bpy.types.Object
+    holder: bpy.types.Object
+    shown: bool
+    indices: list  # of the node, and of those of its geometry nodes
+
+
+@dataclasses.dataclass
 class Exported:
     path: str
     flags: list
-    holdouts: list  # names of nodes that are cut out
     lens: camera.Lens
     only_clear_media: bool
 
@@ -36,25 +45,28 @@ def export(scene, depsgraph, folder, notes, animated):
         raise Unusable(f"'{view.name}' is no camera: expected one to render from")
     path = os.path.join(folder, "scene.gltf")
     with render_levels(scene), exporter_hooks.Tagging():
-        _call_exporter(scene, path, animated)
+        _call_exporter(scene, depsgraph.view_layer, path, animated)
     document = gltf_document.Document(path)
-    shown = {instance.object.original.name_full for instance in depsgraph.object_instances}
-    nodes = _tagged(document)
-    _hide(document, nodes, shown)
+    placed = _placed(document, depsgraph)
+    document.drop_lights()
     materials.add_default(document)
     materials.patch(document, notes, {m.name_full: m for m in bpy.data.materials}, exporter_hooks.MATERIAL)
-    flags, lens = _add_view_and_lights(document, nodes, scene, depsgraph, folder, notes, animated, shown)
-    flags += world.flags_of(scene.world, folder, notes)
+    corners = _corners(depsgraph)
+    node = next((place.node for place in placed if place.thing == view), None) or _own_node(document, view)
+    flags, lens = camera.add(document, node, view, scene.render, corners, notes)
+    used_world = scene.world if depsgraph.view_layer.use_sky else None
+    made = lights.Lights(document, folder, notes, _radius(corners), world.has_volume(used_world))
+    _add_objects(document, placed, made, depsgraph.view_layer, notes)
+    flags += made.flags + world.flags_of(used_world, folder, notes) + passes.flags(depsgraph.view_layer)
+    document.extend(document.scene, visibility.VISIBILITY, visibility.of_world(used_world))
     if scene.render.film_transparent:
         flags += ["--background", "transparent"]
-    holdouts = _objects(nodes, shown, notes, flags, depsgraph)
-    flags += passes.flags(depsgraph.view_layer, holdouts)
     passes.complain(depsgraph.view_layer, notes)
     document.save()
-    return Exported(path, flags, holdouts, lens, materials.has_only_clear_media(document))
+    return Exported(path, flags, lens, materials.has_only_clear_media(document))
 
 
-def _call_exporter(scene, path, animated):
+def _call_exporter(scene, view_layer, path, animated):
     wanted = {"filepath": path, "export_format": "GLTF_SEPARATE", "use_active_scene": True, "use_renderable": True,
               "export_cameras": True, "export_lights": True, "export_apply": True, "export_yup": True, "export_extras": False,
               "export_gn_mesh": True, "export_current_frame": True, "export_animations": animated, "export_frame_range": True,
@@ -66,8 +78,8 @@ def _call_exporter(scene, path, animated):
     known = bpy.ops.export_scene.gltf.get_rna_type().properties.keys()
     windows = bpy.data.window_managers[0].windows  # renders of a command line and timers have none, but the exporter needs one
     override = {"window": bpy.context.window or windows[0]} if len(windows) else {}
-    if bpy.context.scene != scene:
-        override["scene"] = scene
+    if bpy.context.view_layer != view_layer:
+        override.update(scene=view_layer.id_data, view_layer=view_layer)
     try:
         with bpy.context.temp_override(**override):
             bpy.ops.export_scene.gltf(**{name: value for name, value in wanted.items() if name in known})
@@ -83,7 +95,7 @@ def _call_exporter(scene, path, animated):
 
 @contextlib.contextmanager
 def render_levels(scene):
-    """The exporter sees the viewport's modifiers; for its time they are those of the render."""
+    """The exporter sees the viewport's objects and modifiers; for its time they are those of the render."""
     changed = []
 
     def change(owner, name, value):
@@ -93,6 +105,9 @@ def render_levels(scene):
             setattr(owner, name, value)
 
     try:
+        for hidden in (*scene.collection.children_recursive, *scene.objects):
+            if hidden.library is None and not hidden.hide_render:
+                change(hidden, "hide_viewport", False)
         for thing in scene.objects:
             if thing.library is not None:
                 continue
@@ -106,68 +121,69 @@ def render_levels(scene):
             setattr(owner, name, before)
 
 
-def _tagged(document):
-    """Pairs of a node and its object in Blender."""
+def _placed(document, depsgraph):
+    """All nodes of objects. Those that the render does not show lose their meshes; their children stay."""
+    pairs = {(thing, visibility.holder_of(thing, [holder])) for thing, holder in
+             ((instance.object.original, (instance.parent or instance.object).original) for instance in depsgraph.object_instances)}
     objects = {thing.name_full: thing for thing in bpy.data.objects}
-    return [(node, objects[name]) for node, name in document.tagged("nodes", exporter_hooks.OBJECT) if name in objects]
+    nodes = document.list_of("nodes")
+    things = [objects.get(node.get("extras", {}).get(exporter_hooks.OBJECT)) for node in nodes]
+    parents = {child: index for index, node in enumerate(nodes) for child in node.get("children", ())}
+
+    def above(index):
+        while (index := parents.get(index)) is not None:
+            if things[index]:
+                yield things[index]
+
+    found = []
+    for index, (node, thing) in enumerate(zip(nodes, things)):
+        if thing:
+            holder = visibility.holder_of(thing, above(index))
+            shown = (thing, holder) in pairs
+            found.append(Placed(node, thing, holder, shown, [index, *(child for child in node.get("children", ()) if not things[child])]))
+            if not shown:
+                node.pop("mesh", None)
+    return found
 
 
-def _hide(document, nodes, shown):
-    """Objects that the render does not show lose their meshes; their children stay."""
-    for node, thing in nodes:
-        if thing.name_full not in shown:
-            node.pop("mesh", None)
-    document.drop_lights()
+def _corners(depsgraph):
+    """Those of the bounds of what is rendered."""
+    return [instance.matrix_world @ Vector(corner) for instance in depsgraph.object_instances
+            if instance.object.type in SOLID for corner in instance.object.bound_box]
 
 
-def _radius(depsgraph):
-    """Half of the largest extent of what is rendered, in metres."""
-    corners = [instance.matrix_world @ Vector(corner) for instance in depsgraph.object_instances
-               if instance.object.type in SOLID for corner in instance.object.bound_box]
+def _radius(corners):
+    """Half of their largest extent, in metres."""
     if not corners:
         return 1.0
     return max(0.5 * max(max(c[i] for c in corners) - min(c[i] for c in corners) for i in range(3)), 1e-3)
-
-
-def _add_view_and_lights(document, nodes, scene, depsgraph, folder, notes, animated, shown):
-    view = scene.camera
-    node = next((node for node, thing in nodes if thing == view), None) or _own_node(document, view)
-    flags, lens = camera.add(document, node, view, scene.render, notes)
-    made = lights.Lights(document, folder, notes, lambda thing: lights.in_view(view, thing), _radius(depsgraph), animated)
-    foggy = scene.world is not None and world.has_volume(scene.world)
-    for node, thing in nodes:
-        if thing.type == "LIGHT" and thing.name_full in shown:
-            made.add(node, thing, foggy)
-    return flags + made.flags, lens
 
 
 def _own_node(document, view):
     """A camera that is hidden itself has no node of the exporter."""
     matrix = Matrix.Rotation(-0.5 * math.pi, 4, "X") @ view.matrix_world.normalized()
     index = document.add("nodes", {"name": view.name, "matrix": [matrix[row][column] for column in range(4) for row in range(4)]})
-    document.json["scenes"][document.json.get("scene", 0)].setdefault("nodes", []).append(index)
+    document.scene.setdefault("nodes", []).append(index)
     return document.json["nodes"][index]
 
 
-def _objects(nodes, shown, notes, flags, depsgraph):
-    """Catchers of shadows as flags, what the program cannot hide, and the names of the nodes that are cut out."""
-    catchers, holdouts = [], []
-    for node, thing in nodes:
-        if thing.name_full not in shown or thing.type in SILENT:
+def _add_objects(document, placed, made, view_layer, notes):
+    """Lights, and what the exporter leaves out of objects."""
+    indices = {}
+    for place in placed:
+        for name in (place.thing.name_full, place.holder.name_full):
+            indices.setdefault(name, set()).update(place.indices)
+    for place in placed:
+        thing, links = place.thing, visibility.links_of(place.thing, indices)
+        if thing.type == "LIGHT" and place.shown:
+            made.add(place.node, thing, {visibility.VISIBILITY: visibility.of_lamp(thing), visibility.LINKS: links})
+        if thing.type in SILENT:
             continue
-        if thing.type not in SOLID:
+        seen = visibility.of_object(thing, place.holder, view_layer)
+        for index in place.indices:
+            document.extend(document.json["nodes"][index], visibility.VISIBILITY, seen)
+            document.extend(document.json["nodes"][index], visibility.LINKS, links)
+        if place.shown and thing.type not in SOLID:
             notes.add(f"object '{thing.name}'", f"objects of the type {thing.type}")
-        if thing.is_shadow_catcher:
-            catchers.append(node["name"])
-        if thing.is_holdout or thing.evaluated_get(depsgraph).holdout_get(view_layer=depsgraph.view_layer):
-            holdouts.append(node["name"])
-        for ray in ("camera", "diffuse", "glossy", "transmission", "shadow"):
-            if not getattr(thing, f"visible_{ray}", True):
-                notes.add(f"object '{thing.name}'", f"being hidden from {ray} rays")
-        for system in thing.particle_systems:
+        for system in thing.particle_systems if place.shown else ():
             notes.add(f"object '{thing.name}'", "hair" if system.settings.type == "HAIR" else "particles")
-    if catchers:
-        flags += ["--shadow-catcher", catchers[0]]
-        for other in catchers[1:]:
-            notes.add(f"object '{other}'", "a second shadow catcher")
-    return holdouts

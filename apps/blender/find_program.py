@@ -7,7 +7,7 @@ import subprocess
 
 NAME = "gatelight.exe" if os.name == "nt" else "gatelight"
 OLDEST = (1, 0, 0)
-NEEDED = ("--fog", "--cryptomatte", "--shadow-catcher")  # the newest flags that the extension passes on
+NEEDED = ("--fog", "--cryptomatte", "--clip", "--light-links")  # the newest flags; extensions of glTF came with the last one
 PLACES = ("/usr/local/bin", "/usr/bin", "/opt/gatelight/bin", "~/gatelight/bin", "~/.local/bin", "~/gatelight/usr/bin")
 
 _helps = {}

@@ -13,6 +13,10 @@ class Document:
         with open(path, encoding="utf-8") as file:
             self.json = json.load(file)
 
+    @property
+    def scene(self):
+        return self.json["scenes"][self.json.get("scene", 0)]
+
     def save(self):
         for name in ("extensionsUsed", "materials", "meshes", "accessors", "bufferViews", "buffers", "cameras", "lights"):
             if self.json.get(name) == []:
@@ -34,8 +38,9 @@ class Document:
 
     def extend(self, element, extension, values):
         """Sets values of an extension of an element, beside those that it has."""
-        self.use(extension)
-        element.setdefault("extensions", {}).setdefault(extension, {}).update(values)
+        if values:
+            self.use(extension)
+            element.setdefault("extensions", {}).setdefault(extension, {}).update(values)
 
     def add(self, name, element):
         """The index of the new element."""

@@ -21,8 +21,3 @@ def spot(size, blend):
     """The cone of a spot light; both angles are full ones, in radians."""
     last = min(math.ceil(0.5 * math.degrees(size) / STEP) * STEP, 180.0)
     return text_of(lambda angle: units.spot_falloff(angle, size, blend), last)
-
-
-def cosine():
-    """A small part of a surface that emits evenly."""
-    return text_of(lambda angle: max(math.cos(angle), 0.0))

@@ -2,7 +2,7 @@
 
 import bpy
 
-from . import flags
+from . import flags, visibility
 
 ENGINE = "GATELIGHT"
 # Panels of other engines that say something to this one too, and general ones that say nothing to it.
@@ -88,12 +88,27 @@ class GATELIGHT_PT_visibility(_Panel):
 
     def draw(self, context):
         self.layout.use_property_split = True
-        thing = context.object
-        self.layout.prop(thing, "visible_camera" if thing.type == "LIGHT" else "is_shadow_catcher")
+        for name in [*visibility.LAMP.values()] if context.object.type == "LIGHT" else [*visibility.OBJECT.values(), "is_shadow_catcher"]:
+            self.layout.prop(context.object, name)
+
+
+class GATELIGHT_PT_world_visibility(_Panel):
+    """The same of the world."""
+    bl_label = "Visibility in Gatelight"
+    bl_context = "world"
+
+    @classmethod
+    def poll(cls, context):
+        return super().poll(context) and hasattr(context.world, "cycles_visibility")
+
+    def draw(self, context):
+        self.layout.use_property_split = True
+        for name in visibility.WORLD.values():
+            self.layout.prop(context.world.cycles_visibility, name)
 
 
 CLASSES = (GATELIGHT_OT_from_cycles, GATELIGHT_PT_sampling, GATELIGHT_PT_paths, GATELIGHT_PT_film, GATELIGHT_PT_more,
-           GATELIGHT_PT_visibility)
+           GATELIGHT_PT_visibility, GATELIGHT_PT_world_visibility)
 
 
 def _share(change):

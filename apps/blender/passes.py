@@ -1,7 +1,5 @@
 """Passes by Blender's names, from layers of the program's EXR."""
 
-import json
-
 import numpy
 
 NOTHING = 1e10  # Blender's depth of the background
@@ -88,13 +86,13 @@ def mask_passes(view_layer):
             for kind in kinds for level in range(levels)]
 
 
-def flags(view_layer, holdouts):
+def flags(view_layer):
     """--aov and --cryptomatte for the view layer."""
     layers = {layer for p in asked(view_layer) for layer in p.layers}
     if layers.intersection(DENOISING):
         layers = layers.difference(DENOISING) | {"denoising"}
-    kinds = set(masks(view_layer)[0]) | ({"object"} if holdouts else set())
-    return (["--aov", ",".join(sorted(layers))] if layers else []) + (["--cryptomatte", ",".join(sorted(kinds))] if kinds else [])
+    kinds, _ = masks(view_layer)
+    return (["--aov", ",".join(sorted(layers))] if layers else []) + (["--cryptomatte", ",".join(kinds)] if kinds else [])
 
 
 def complain(view_layer, notes):
@@ -122,20 +120,3 @@ def flatten_depth(picture, lens):
     x = (picture.corner[0] + numpy.arange(width) + 0.5 - 0.5 * lens.size[0]) * lens.slope
     y = (picture.corner[1] + numpy.arange(height) + 0.5 - 0.5 * lens.size[1]) * lens.slope
     picture.layers["depth"] = layer / numpy.sqrt(1.0 + x[None, :, None] ** 2 + y[:, None, None] ** 2)
-
-
-def hold_out(picture, names):
-    """Cuts objects out of the picture itself, by their Cryptomatte coverage."""
-    manifest = next((text for key, text in picture.attributes.items() if key.endswith("/manifest") and
-                     picture.attributes.get(key[:-8] + "name") == "CryptoObject"), "{}")
-    known = json.loads(manifest)
-    identities = numpy.array([int(known[name], 16) for name in names if name in known], numpy.uint32).view(numpy.float32)
-    beauty = _with_alpha(picture.layers[""])
-    covered = numpy.zeros(beauty.shape[:2], numpy.float32)
-    for level in range(3):
-        layer = picture.layers.get(f"CryptoObject{level:02d}")
-        if layer is not None:
-            for at in (0, 2):
-                covered += numpy.where(numpy.isin(layer[..., at], identities), layer[..., at + 1], 0.0)
-    picture.layers[""] = beauty * (1.0 - numpy.minimum(covered, 1.0))[..., None]
-

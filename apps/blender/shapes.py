@@ -1,4 +1,4 @@
-"""Meshes and point sets for lights that have a size. Surfaces shine along -z, as lights of glTF do."""
+"""Meshes and points for lights that have a size. Surfaces shine along -z, as lights of glTF do."""
 
 import math
 
@@ -52,19 +52,3 @@ def points_in_disc(count):
     """Evenly in a disc of radius 1."""
     return [(r * math.cos(GOLDEN * k), r * math.sin(GOLDEN * k), 0.0)
             for k, r in ((k, math.sqrt((k + 0.5) / count)) for k in range(count))]
-
-
-def points_in_square(side):
-    """The middles of side x side parts of a square of one metre."""
-    steps = [(k + 0.5) / side - 0.5 for k in range(side)]
-    return [(x, y, 0.0) for y in steps for x in steps]
-
-
-def points_on_sphere(count):
-    """Evenly on a sphere of radius 1."""
-    found = []
-    for k in range(count):
-        z = 1.0 - (2.0 * k + 1.0) / count
-        r = math.sqrt(1.0 - z * z)
-        found.append((r * math.cos(GOLDEN * k), r * math.sin(GOLDEN * k), z))
-    return found

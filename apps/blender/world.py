@@ -113,7 +113,7 @@ def _sky(sky, strength, world, notes):
 
 
 def has_volume(world):
-    return materials.at_output(world, "Volume") is not None
+    return world is not None and materials.at_output(world, "Volume") is not None
 
 
 def _fog(world, notes):

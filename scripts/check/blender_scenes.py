@@ -260,6 +260,21 @@ def thing_of_collection(group):
     return empty
 
 
+def partly_visible():
+    """A ball that the camera does not see and a box that a mirror does not see, a lamp for the box alone, and a world that is seen as
+    light only. Diffuse rays and shadow rays meet the same objects, since Cycles mixes their light."""
+    cube, made = stage()
+    mirror = box(material("mirror", (0.9, 0.9, 0.9), "ShaderNodeBsdfGlossy", Roughness=0.0), (0.0, 2.2, 0.8))
+    mirror.scale = (3.0, 0.1, 1.0)
+    made.visible_camera = cube.visible_glossy = False
+    key = lamp("POINT", (-2.0, -2.0, 2.5), energy=200.0, shadow_soft_size=0.0, color=(0.2, 1.0, 0.4))
+    key.light_linking.receiver_collection = bpy.data.collections.new("lit")
+    key.light_linking.receiver_collection.objects.link(cube)
+    lamp("POINT", (3.0, -2.0, 4.0), energy=300.0, shadow_soft_size=0.0)
+    rays = world((0.4, 0.4, 0.4))[0].cycles_visibility
+    rays.camera = rays.scatter = False
+
+
 def transparent_film():
     """No background, and a ball that is cut out."""
     _, made = _plain_stage()
@@ -297,7 +312,7 @@ def passes():
 # Name, scene, the largest difference of the means (None: it is printed only), and why it may be larger.
 SCENES = [
     ("point", point_lights, LIGHTS, ""),
-    ("point, hidden", hidden_point_lights, LIGHTS, "16 small lights"),
+    ("point, hidden", hidden_point_lights, LIGHTS, ""),
     ("spot", spot_lights, LIGHTS, ""),
     ("sun", suns, LIGHTS, ""),
     ("area", area_lights, LIGHTS, ""),
@@ -318,6 +333,7 @@ SCENES = [
     ("fog", world_fog, PRINCIPLED, ""),
     ("instances", instances_and_modifiers, LIGHTS, ""),
     ("transparency", transparent_film, LIGHTS, ""),
+    ("visibility", partly_visible, LIGHTS, ""),
     ("animation", moving_ball, LIGHTS, ""),
     ("passes", passes, LIGHTS, ""),
 ]

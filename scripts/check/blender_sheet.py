@@ -15,7 +15,7 @@ import bpy  # noqa: E402
 import exr  # noqa: E402  the extension's own reader
 import numpy  # noqa: E402
 
-COLUMNS, GAP = 6, 4
+COLUMNS, GAP = 5, 4
 
 
 def combined(folder, name, engine):

@@ -9,7 +9,7 @@ import unittest
 import numpy
 from support import DATA, PROGRAM, main, module
 
-exr, gltf_document, shapes, ies, units = (module(name) for name in ("exr", "gltf_document", "shapes", "ies", "units"))
+exr, gltf_document, shapes, units, visibility = (module(name) for name in ("exr", "gltf_document", "shapes", "units", "visibility"))
 
 
 def program(*arguments):
@@ -69,6 +69,25 @@ class Documents(unittest.TestCase):
         found = json.loads(program("info", self.path, "--json", "-"))
         self.assertEqual([(light["name"], light["intensity"][0]) for light in found["lights"]], [("new", 2.0)])
         self.assertEqual(found["requirements"]["emissive_triangles"], 2)
+
+    def test_the_program_reads_what_rays_see_and_lights_concern(self):
+        node = self.document.json["nodes"][0]
+        material = self.document.add_clear_emitter("glow", [1.0, 1.0, 1.0])
+        wall = {"name": "wall", "mesh": self.document.add_mesh("glow", shapes.rectangle(), material)}
+        self.document.extend(wall, visibility.VISIBILITY, {"camera": False, "holdout": True})
+        self.document.extend(node, visibility.LINKS, {"receivers": {"nodes": [1]}, "blockers": {"nodes": []}})
+        self.document.extend(self.document.scene, visibility.VISIBILITY, {"volume": False})
+        self.document.extend(self.document.scene, "NOT_used", {})
+        self.document.add_child(node, wall)
+        self.document.save()
+        self.assertNotIn("NOT_used", self.document.json["extensionsUsed"])
+        found = json.loads(program("info", self.path, "--json", "-"))
+        seen = {thing.get("name"): thing for thing in found["visibility"]}
+        self.assertNotIn("camera", seen["wall"]["rays"])
+        self.assertTrue(seen["wall"]["holdout"])
+        self.assertNotIn("volume", seen[None]["rays"])
+        (link,) = found["light_links"]
+        self.assertEqual((link["name"], link["receivers"], link["blockers"]), ("lamp", {"only": ["wall"]}, {"only": []}))
 
     def test_a_square_shines_on_a_wall_by_its_watts(self):
         node = self.document.json["nodes"][0]

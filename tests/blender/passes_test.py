@@ -1,6 +1,5 @@
 """Layers become Blender's passes."""
 
-import json
 import types
 import unittest
 
@@ -46,18 +45,9 @@ class Passes(unittest.TestCase):
         made = passes.pixels_of(by_name("Depth"), picture(depth=[[[numpy.inf], [2.0]]]))
         self.assertEqual(made.tolist(), [[[numpy.float32(1e10)], [2.0]]])
 
-    def test_holdouts_are_cut_by_their_coverage(self):
-        identity = numpy.array([0x3f123456], numpy.uint32).view(numpy.float32)[0]
-        mask = numpy.zeros((1, 2, 4), numpy.float32)
-        mask[0, 0] = identity, 0.75, 0.0, 0.0
-        made = exr.Picture({"": numpy.ones((1, 2, 3), numpy.float32), "CryptoObject00": mask}, {
-            "cryptomatte/1/name": "CryptoObject", "cryptomatte/1/manifest": json.dumps({"ball": "3f123456"})}, (0, 0))
-        passes.hold_out(made, ["ball"])
-        self.assertEqual(made.layers[""].tolist(), [[[0.25] * 4, [1.0] * 4]])
-
     def test_a_layer_asks_for_what_it_shows(self):
         layer = types.SimpleNamespace(use_pass_z=True, use_pass_vector=True, use_pass_cryptomatte_material=True, pass_cryptomatte_depth=2)
-        self.assertEqual(passes.flags(layer, True), ["--aov", "depth,motion,motion-next", "--cryptomatte", "material,object"])
+        self.assertEqual(passes.flags(layer), ["--aov", "depth,motion,motion-next", "--cryptomatte", "material"])
         self.assertEqual([made.name for made in passes.mask_passes(layer)], ["CryptoMaterial00"])
 
 
