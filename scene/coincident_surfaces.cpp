@@ -4,7 +4,6 @@
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -43,7 +42,11 @@ Triangle corners_of(const Scene& scene, const Instance& instance, std::uint32_t 
 
 Box box_of(const Scene& scene, const Instance& instance, std::uint32_t primitive) {
   Box box;
-  for (const Vec3& p : world_triangle(scene, instance, primitive)) box.extend(p);
+  const Mesh& mesh = scene.mesh_of(instance);
+  for (const std::uint32_t corner : mesh.triangles[primitive]) {
+    const Vec3& p = mesh.positions[corner];
+    box.extend(instance.baked ? p : Vec3(instance.transform * p));
+  }
   return box;
 }
 
@@ -100,8 +103,6 @@ class PassingTriangles {
 
   explicit PassingTriangles(std::vector<Item> items) : items_(std::move(items)) { build(0, items_.size()); }
 
-  const Box& bounds() const { return nodes_.front().box; }
-
   /// Calls visit(item) for those whose boxes intersect this one, but for those of the instance.
   template <class Visit>
   void each_in(const Box& box, std::uint32_t but, const Visit& visit) const {
@@ -130,7 +131,7 @@ class PassingTriangles {
   };
 
   void build(std::size_t begin, std::size_t end) {
-    constexpr std::size_t kLeaf = 4;
+    constexpr std::size_t kLeaf = 16;
     const std::size_t at = nodes_.size();
     Node node{.box = {}, .instance = items_[begin].instance, .first = begin, .count = end - begin};
     Box middles;
@@ -183,11 +184,11 @@ class PlaneSeparator {
     if (count == 0 || count > kMaxPassing) return;
     find_pairs();
     if (pairs_.empty()) return;
-    choose_levels();
+    choose_distances();
     const std::vector<std::vector<std::uint32_t>> placements = find_placements();
     moved_.assign(scene_.meshes.size(), 0);
     for (std::uint32_t i = 0; i < scene_.instances.size(); ++i) {
-      if (levels_[i] > 0) move(i, placements);
+      if (distances_[static_cast<std::size_t>(scene_.instances[i].mesh)] > 0.0f) move(i, placements);
     }
   }
 
@@ -197,31 +198,44 @@ class PlaneSeparator {
 
   void find_pairs() {
     const std::vector<Instance>& instances = scene_.instances;
-    std::vector<PassingTriangles::Item> items;
-    offsets_.resize(instances.size());
-    for (std::uint32_t i = 0; i < instances.size(); ++i) {
-      const Mesh& mesh = scene_.mesh_of(instances[i]);
-      float largest = instances[i].transform.translation().cwiseAbs().maxCoeff();
-      for (const Vec3& p : mesh.positions)
-        largest = std::max(largest, (instances[i].transform * p).cwiseAbs().maxCoeff());
+    const auto count = static_cast<std::uint32_t>(instances.size());
+    offsets_.resize(count);
+    std::vector<Box> boxes(count);
+    tbb::parallel_for(std::uint32_t{0}, count, [&](std::uint32_t i) {
+      Box& box = boxes[i];
+      const Instance& instance = instances[i];
+      for (const Vec3& p : scene_.mesh_of(instance).positions)
+        box.extend(instance.baked ? p : Vec3(instance.transform * p));
+      if (box.isEmpty()) return;
+      const float largest = std::max({box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff(),
+                                      instance.transform.translation().cwiseAbs().maxCoeff()});
       offsets_[i] = kOffset * largest;
+      const Vec3 margin = Vec3::Constant(offsets_[i]);
+      box = Box(box.min() - margin, box.max() + margin);
+    });
+    std::vector<PassingTriangles::Item> items;
+    for (std::uint32_t i = 0; i < count; ++i) {
       if (!passes(scene_, instances[i])) continue;
       const Vec3 margin = Vec3::Constant(offsets_[i]);
-      for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+      for (std::uint32_t t = 0; t < scene_.mesh_of(instances[i]).triangles.size(); ++t) {
         const Box box = box_of(scene_, instances[i], t);
         items.push_back({Box(box.min() - margin, box.max() + margin), i, t});
       }
     }
     const PassingTriangles triangles(std::move(items));
     tbb::enumerable_thread_specific<Pairs> found;
-    tbb::parallel_for(std::uint32_t{0}, static_cast<std::uint32_t>(instances.size()), [&](std::uint32_t i) {
+    tbb::parallel_for(std::uint32_t{0}, count, [&](std::uint32_t i) {
       const Mesh& mesh = scene_.mesh_of(instances[i]);
       if (mesh.deforming >= 0) return;
+      // Most triangles are far from all that let light pass.
+      Box near;
+      triangles.each_in(boxes[i], i, [&](const PassingTriangles::Item& item) { near.extend(item.box); });
+      if (near.isEmpty()) return;
       tbb::parallel_for(
           tbb::blocked_range<std::uint32_t>(0, static_cast<std::uint32_t>(mesh.triangles.size()), 1024),
           [&](const tbb::blocked_range<std::uint32_t>& range) {
-            for (std::uint32_t t = range.begin(); t < range.end(); ++t)
-              compare(triangles, i, t, found.local());
+            Pairs& pairs = found.local();
+            for (std::uint32_t t = range.begin(); t < range.end(); ++t) compare(triangles, near, i, t, pairs);
           });
     });
     for (const Pairs& some : found) {
@@ -232,12 +246,14 @@ class PlaneSeparator {
     }
   }
 
-  void compare(const PassingTriangles& triangles, std::uint32_t i, std::uint32_t t, Pairs& found) const {
+  /// `near`: bounds of all that could coincide with a triangle of the instance.
+  void compare(const PassingTriangles& triangles, const Box& near, std::uint32_t i, std::uint32_t t,
+               Pairs& found) const {
     const Instance& instance = scene_.instances[i];
     const Vec3 margin = Vec3::Constant(offsets_[i]);
     Box box = box_of(scene_, instance, t);
     box = Box(box.min() - margin, box.max() + margin);
-    if (!box.intersects(triangles.bounds())) return;
+    if (!box.intersects(near)) return;
     triangles.each_in(box, i, [&](const PassingTriangles::Item& item) {
       const Triangle a = corners_of(scene_, scene_.instances[item.instance], item.primitive);
       const Triangle b = corners_of(scene_, instance, t);
@@ -253,21 +269,32 @@ class PlaneSeparator {
     });
   }
 
-  /// Sets by how many steps each instance moves; 0: not. Of two that coincide the steps differ where both
-  /// would move the same way.
-  void choose_levels() {
-    constexpr int kMost = 8;
-    levels_.assign(scene_.instances.size(), 0);
+  /// Sets by how much each mesh moves, in units of its space; 0: not. Of two that coincide and would move the
+  /// same way, one moves further.
+  void choose_distances() {
+    constexpr int kRounds = 8;
+    std::vector<float> distances(scene_.instances.size(), 0.0f);  // metres, by instance
+    const auto apart = [&](const Pair& pair) {
+      return 2.0f * (offsets_[pair.passing] + offsets_[pair.other]);
+    };
     for (const auto& [pair, facing] : pairs_) {
       // A sheet makes way for a body, and of two sheets the later one.
-      if (is_sheet(pair.passing) || !is_sheet(pair.other)) levels_[pair.passing] = 1;
+      float& distance = distances[pair.passing];
+      if (is_sheet(pair.passing) || !is_sheet(pair.other)) distance = std::max(distance, apart(pair));
     }
-    for (int round = 0; round < kMost; ++round) {
+    for (int round = 0; round < kRounds; ++round) {
       for (const auto& [pair, facing] : pairs_) {
-        if (!is_behind(pair, facing)) continue;
-        int& level = levels_[pair.passing];
-        level = std::min(std::max(level, levels_[pair.other] + 1), kMost);
+        float& distance = distances[pair.passing];
+        if (is_behind(pair, facing)) distance = std::max(distance, distances[pair.other] + apart(pair));
       }
+    }
+    distances_.assign(scene_.meshes.size(), 0.0f);
+    for (std::size_t i = 0; i < distances.size(); ++i) {
+      if (!(distances[i] > 0.0f)) continue;
+      const Eigen::JacobiSVD<Eigen::Matrix3f> svd(scene_.instances[i].transform.linear());
+      const float scale = std::max(svd.singularValues().z(), 1e-4f * svd.singularValues().x());
+      float& distance = distances_[static_cast<std::size_t>(scene_.instances[i].mesh)];
+      distance = std::max(distance, distances[i] / scale);
     }
   }
 
@@ -307,22 +334,8 @@ class PlaneSeparator {
       if (std::exchange(moved_[static_cast<std::size_t>(mesh)], 1) == 0) meshes.push_back(mesh);
     }
     if (meshes.empty()) return;
-    const Eigen::JacobiSVD<Eigen::Matrix3f> svd(instance.transform.linear());
-    const float scale = std::max(svd.singularValues().z(), 1e-4f * svd.singularValues().x());
-    float distance = 2.0f * static_cast<float>(levels_[i]) * reach_of(i) / scale;
-    if (!outwards(i)) distance = -distance;
-    if (instance.swaps_handedness) distance = -distance;
-    move(meshes, distance);
-  }
-
-  /// The largest tolerance of its pairs, in metres.
-  float reach_of(std::uint32_t i) const {
-    float reach = 0.0f;
-    for (const auto& [pair, facing] : pairs_) {
-      if (pair.passing == i || pair.other == i)
-        reach = std::max(reach, offsets_[pair.passing] + offsets_[pair.other]);
-    }
-    return reach;
+    const float distance = distances_[static_cast<std::size_t>(instance.mesh)];
+    move(meshes, outwards(i) ? distance : -distance);
   }
 
   /// Whether it moves towards its own front: bodies do; sheets move to the front of what they lie on.
@@ -393,8 +406,8 @@ class PlaneSeparator {
   Scene& scene_;
   std::vector<float> offsets_;  ///< of rays, by instance
   Pairs pairs_;
-  std::vector<int> levels_;
-  std::vector<char> moved_;  ///< by mesh
+  std::vector<float> distances_;  ///< by mesh
+  std::vector<char> moved_;       ///< by mesh
 };
 
 }  // namespace

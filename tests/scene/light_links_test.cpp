@@ -193,9 +193,9 @@ AnimatedFile many_sets(int count, const char* what) {
 TEST(LightLinkRules, TooManySetsAreRefused) {
   EXPECT_EQ(many_sets(64, "receivers").load().object_sets.size(), 64u);
   many_sets(65, "receivers").expect_refused({"65", "receivers", "64"});
-  EXPECT_EQ(many_sets(26, "blockers").load().object_sets.size(), 26u);
-  many_sets(27, "blockers").expect_refused({"27", "blockers", "26"});
-  many_sets(181, "blockers").expect_refused({"181", "180"});
+  EXPECT_EQ(many_sets(25, "blockers").load().object_sets.size(), 25u);
+  many_sets(26, "blockers").expect_refused({"26", "blockers", "25"});
+  many_sets(179, "blockers").expect_refused({"179", "178"});
 }
 
 TEST(LightLinkRules, AreTheSameAtAllTimes) {

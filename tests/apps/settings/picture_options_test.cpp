@@ -121,7 +121,7 @@ TEST(OptionTable, EachSetsItsMemberAndNoOther) {
 const tests::Words kDecideNothing = tests::words_of(
     "checkpoint checkpoint-every cache-out spp time-limit max-error oidn cryptomatte camera fov lens "
     "projection "
-    "view-height aperture focus blades environment sky environment-rotation environment-scale fog nan "
+    "view-height aperture focus blades clip environment sky environment-rotation environment-scale fog nan "
     "temporal "
     "train-time threads memory-limit isa");
 

@@ -188,7 +188,9 @@ TEST_F(DenoisedPictures, RemoveMostOfTheNoiseAndKeepEdges) {
   for (int y = 0; y < 64; ++y) {
     for (int x = 0; x < 96; ++x) {
       const auto i = 3 * static_cast<std::size_t>(y * 96 + x);
-      if (x < 32 || y >= 40) ASSERT_EQ(denoised.normal[i], noisy.normal[i]) << x << " " << y;
+      if (x < 32 || y >= 40) {
+        ASSERT_EQ(denoised.normal[i], noisy.normal[i]) << x << " " << y;
+      }
     }
   }
   EXPECT_LT(deviation(denoised.albedo, clean.albedo), deviation(noisy.albedo, clean.albedo));

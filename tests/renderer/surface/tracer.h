@@ -8,7 +8,11 @@ namespace gatelight::renderer {
 
 struct Tracer {
   explicit Tracer(const scene::Scene& s, const AccelOptions& options = {})
-      : textures(s), coverage(s, textures, media), surfaces(s, textures), accel(s, coverage, options) {}
+      : textures(s),
+        coverage(s, textures, media),
+        surfaces(s, textures),
+        masks(s, {}),
+        accel(s, coverage, masks, options) {}
 
   Hit hit(const Vec3& origin, const Vec3& direction) const {
     Ray ray;
@@ -30,6 +34,7 @@ struct Tracer {
   Media media;
   Coverage coverage;
   Surfaces surfaces;
+  RayMasks masks;
   Accel accel;
 };
 

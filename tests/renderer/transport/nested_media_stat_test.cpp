@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "renderer/render.h"
-#include "renderer/transport/view_check.h"
+#include "renderer/surface/surroundings.h"
 #include "renderer/transport/world.h"
 #include "tests/support/materials.h"
 #include "tests/support/picture_moments.h"
@@ -134,10 +134,12 @@ TEST(NestedMedia, ACameraInTheWaterStartsInItsMedium) {
   stack.sphere(stack.material(SceneBuilder::lambert(Color::Ones())),
                Vec3(0, 0, 10) + 3.0f * Vec3(0.48f, 0.64f, 0.6f), 1.0f, 96, true);
   const World world(stack.scene());
-  EXPECT_EQ(volumes_around(world, Vec3(0, 0, 10)).strongest(), 1u);
-  EXPECT_EQ(volumes_around(world, Vec3(0, 0, 1.5f)).strongest(), 0u);
-  EXPECT_EQ(volumes_around(world, Vec3(0, 0, 1.5f)).strongest_but(0), 1u);
-  EXPECT_EQ(volumes_around(world, Vec3(0, 0, 30)).strongest(), scene::kNoVolume);
+  const Surroundings around(world.scene, world.media, world.accel, world.surfaces, world.scene.bounds);
+  const auto volumes = [&](float z) { return around.at(Vec3(0, 0, z), scene::kShutterMiddle).volumes; };
+  EXPECT_EQ(volumes(10).strongest(), 1u);
+  EXPECT_EQ(volumes(1.5f).strongest(), 0u);
+  EXPECT_EQ(volumes(1.5f).strongest_but(0), 1u);
+  EXPECT_EQ(volumes(30).strongest(), scene::kNoVolume);
 }
 
 TEST(NestedMedia, ShadowRaysPassMediaInTheirOrder) {
