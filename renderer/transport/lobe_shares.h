@@ -28,7 +28,7 @@ inline LobeShare share_of_direction(const ShadingBlock& p, int lane) {
 
 /// Of a light sample, what lobes reflect whose rays would see the light: the share of each channel. `lobes`
 /// become those of the rest.
-inline Color keep_visible(LobeShare& lobes, scene::RayKinds rays) {
+[[gnu::noinline, gnu::cold]] inline Color keep_visible(LobeShare& lobes, scene::RayKinds rays) {
   const bool transmitted = lobes.rest == LobeShare::Rest::transmission;
   const scene::RayKinds of_diffuse = transmitted ? scene::kTransmissionRays : scene::kDiffuseRays;
   const scene::RayKinds of_rest = transmitted ? scene::kTransmissionRays : scene::kGlossyRays;
@@ -40,7 +40,7 @@ inline Color keep_visible(LobeShare& lobes, scene::RayKinds rays) {
 
 /// Chooses the lobe that a sampled direction follows by its share of the light, so that the ray is of one
 /// kind. `u` is in [0, 1).
-inline void choose_lobe(LobeShare& lobes, DirectionSample& sampled, float u) {
+[[gnu::noinline, gnu::cold]] inline void choose_lobe(LobeShare& lobes, DirectionSample& sampled, float u) {
   const Color diffuse = lobes.diffuse * sampled.weight;
   const float whole = luminance(sampled.weight);
   const float share = whole > 0.0f ? luminance(diffuse) / whole : 0.0f;

@@ -252,7 +252,7 @@ struct PathState {
   std::pair<Ray, Color> shadow_ray(const PathContext& context, const PathBlock& block, int lane,
                                    std::uint32_t instance) const {
     Ray ray = shadow_ray_at(block.points, lane);
-    if (const LightRules& rules = context.world.light_rules; !rules.empty()) {
+    if (const LightRules& rules = context.world.light_rules; !rules.empty()) [[unlikely]] {
       const LightRule& rule = rules.of_light(block.points.light[lane]);
       if (!rule.lights(instance) || (rule.rays & scene::kBounceRays) == 0) return {ray, Color::Zero()};
       ray.mask = rule.shadow_mask;
