@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "scene/coincident_instances.h"
 #include "scene/nested_volumes.h"
 #include "tests/support/materials.h"
 
@@ -60,6 +61,22 @@ void expect_around(const Box& outer, const Box& inner) {
 void expect_overlap(const Box& below, const Box& above, Eigen::Index axis) {
   EXPECT_GT(below.max()[axis] - above.min()[axis], 2.0f * kOffset);
   EXPECT_LT(below.max()[axis] - above.min()[axis], kMost);
+}
+
+TEST(CoincidentInstances, SayWhichFacesLookTheSameWay) {
+  Shapes shapes;
+  const auto low = static_cast<std::uint32_t>(shapes.body(Vec3(0, 0, 0), Vec3(1, 1, 1)));
+  const auto high = static_cast<std::uint32_t>(shapes.body(Vec3(0, 0, 1), Vec3(2, 1, 2)));
+  const auto far = static_cast<std::uint32_t>(shapes.body(Vec3(5, 0, 0), Vec3(6, 1, 1)));
+  const auto table = static_cast<std::uint32_t>(shapes.square(shapes.matte, 3, 0));
+  const CoincidentInstances found = find_coincident_instances(shapes.scene());
+  ASSERT_EQ(found.pairs.size(), 3u) << far;
+  for (const InstancePair pair :
+       {InstancePair{low, high}, InstancePair{high, low}, InstancePair{low, table}}) {
+    ASSERT_TRUE(found.pairs.contains(pair)) << pair.passing << " " << pair.other;
+    EXPECT_TRUE(found.pairs.at(pair).opposite);
+    EXPECT_FALSE(found.pairs.at(pair).same);
+  }
 }
 
 TEST(TouchingBodies, OverlapInEitherOrder) {
