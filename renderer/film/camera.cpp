@@ -82,6 +82,7 @@ Box Camera::origins() const {
 void Camera::set_surroundings(std::shared_ptr<const Surroundings> surroundings) {
   medium_ = {};
   surroundings_ = nullptr;
+  is_in_media_ = !surroundings->empty();
   if (surroundings->empty()) return;
   const Box places = origins();
   if (has_shutter_ || places.min() != places.max()) {
@@ -92,6 +93,7 @@ void Camera::set_surroundings(std::shared_ptr<const Surroundings> surroundings) 
 }
 
 void Camera::take_surroundings(const Camera& other) {
+  is_in_media_ = other.is_in_media_;
   medium_ = other.medium_;
   surroundings_ = other.surroundings_;
 }

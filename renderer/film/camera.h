@@ -33,6 +33,8 @@ class Camera {
   void set_surroundings(std::shared_ptr<const Surroundings> surroundings);
   /// The same as for another camera of the same view.
   void take_surroundings(const Camera& other);
+  /// Whether some rays start in a body.
+  bool is_in_media() const { return is_in_media_; }
   /// What a ray of this camera starts in.
   StartMedium medium_of(const Ray& ray) const {
     return surroundings_ ? surroundings_->at(ray.origin, ray.time) : medium_;
@@ -69,6 +71,7 @@ class Camera {
   /// The ray from the eye, clipped.
   CameraRay made(const Vec3& origin, const Vec3& direction) const;
 
+  bool is_in_media_ = false;
   StartMedium medium_;  ///< of all rays, unless there are surroundings
   std::shared_ptr<const Surroundings> surroundings_;
   Vec3 origin_;

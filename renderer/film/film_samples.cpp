@@ -33,7 +33,7 @@ CameraSample make_camera_sample(const PixelSample& sample, const RenderOptions& 
   const Vec2 offset = filter.sample(s.sampler.get_2d(dimension::kFilm));
   s.camera_ray = camera_ray(camera, static_cast<float>(pixel.x) + 0.5f + offset.x(),
                             static_cast<float>(pixel.y) + 0.5f + offset.y(), s.sampler);
-  s.start = camera.medium_of(s.camera_ray.ray);
+  if (camera.is_in_media()) s.start = camera.medium_of(s.camera_ray.ray);
   return s;
 }
 

@@ -70,7 +70,7 @@ void PathIntegrator::add_light(const PathState& path, const PathBlock& block, in
   auto [shadow, passed] = path.shadow_ray(context_, block, lane, scratch.hits[block.path[lane]].instance);
   LobeShare lobes;
   if (scratch.parts.any_passes() || by_lobe_) lobes = share_of_light(points, lane);
-  if (by_lobe_ && !context_.world.light_rules.empty())
+  if (by_lobe_ && context_.has_rules)
     passed *= keep_visible(lobes, context_.world.light_rules.of_light(points.light[lane]).rays);
   const Color contribution = path.carried() * direct * passed;
   const float weight = path.shadow_weight(contribution.maxCoeff(), path.contribution_threshold);

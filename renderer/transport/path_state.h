@@ -19,6 +19,7 @@ struct PathContext {
   const World& world;
   MisRule mis;
   int max_transmission_depth;  ///< a path ends after that many scattering events to the other side
+  bool has_rules;              ///< World::light_rules has any
   Shading shading;
 
   PathContext(const World& where, const MisRule& rule, int max_transmissions)
@@ -28,6 +29,7 @@ struct PathContext {
                 ? MisRule{DirectLight::nee, rule.heuristic}
                 : rule),
         max_transmission_depth(max_transmissions),
+        has_rules(!world.light_rules.empty()),
         shading(world.lights, world.light_arrays, world.kernels, world.requirements.sheen, mis.direct,
                 mis.heuristic) {}
 };
@@ -172,7 +174,7 @@ struct PathState {
   /// The emission of the sky for a ray that leaves the scene.
   Emission sky(const PathContext& context, const Vec3& direction) const {
     if (context.world.separate_background && depth == 0) return {};
-    if (!context.world.light_rules.empty() && !sees(context.world.light_rules.of_environment())) return {};
+    if (context.has_rules && !sees(context.world.light_rules.of_environment())) return {};
     Emission sky{context.world.environment.radiance(direction)};
     if (sky.any()) sky.weight = sky_weight(context.world, context.mis, previous, direction);
     return sky;
@@ -198,8 +200,8 @@ struct PathState {
     if (m.unrefracted) remove_refraction(surface.material);
     if (surface.material.dispersion > 0.0f && !m.unrefracted) disperse(m);
     m.emission.radiance = surface.emission;
-    const LightRules& rules = context.world.light_rules;
-    if (!rules.empty() && m.emission.any() && !surface.unlit && !sees(rules.of_instance(hit.instance)))
+    if (context.has_rules && m.emission.any() && !surface.unlit &&
+        !sees(context.world.light_rules.of_instance(hit.instance)))
       m.emission.radiance.setZero();
     if (m.emission.any())
       m.emission.weight = emission_weight(context.world, context.mis, previous, hit, surface, ray.direction);
@@ -252,8 +254,8 @@ struct PathState {
   std::pair<Ray, Color> shadow_ray(const PathContext& context, const PathBlock& block, int lane,
                                    std::uint32_t instance) const {
     Ray ray = shadow_ray_at(block.points, lane);
-    if (const LightRules& rules = context.world.light_rules; !rules.empty()) [[unlikely]] {
-      const LightRule& rule = rules.of_light(block.points.light[lane]);
+    if (context.has_rules) [[unlikely]] {
+      const LightRule& rule = context.world.light_rules.of_light(block.points.light[lane]);
       if (!rule.lights(instance) || (rule.rays & scene::kBounceRays) == 0) return {ray, Color::Zero()};
       ray.mask = rule.shadow_mask;
     }
