@@ -36,7 +36,7 @@ struct LoadOptions {
   /// Name or index of the animation to evaluate. Empty means all of them; if several animate the same value,
   /// only the first does.
   std::string animation;
-  bool missing_is_error = true;  ///< for unreadable textures; otherwise they become white, with a warning
+  bool missing_is_error = true;  ///< for unreadable textures; otherwise they are left out, with a warning
   bool allow_external = false;   ///< buffers and images may lie outside the scene file's folder
   std::vector<std::string> ignore_required;  ///< extensions that the file may require although unsupported
   bool show_hidden = false;                  ///< show the nodes that KHR_node_visibility hides

@@ -281,6 +281,9 @@ struct Scene {
   /// the file's origin, compared with its size: single precision would lose too many digits there
   /// (kFarFromOrigin in scene/gltf.h).
   Vec3 origin = Vec3::Zero();
+  /// Where its objects look: 1 along +z, -1 along -z, as avatars of VRM 0 do. For views of files without a
+  /// camera.
+  float front = 1.0f;
 
   const Mesh& mesh_of(const Instance& instance) const {
     return meshes[static_cast<std::size_t>(instance.mesh)];

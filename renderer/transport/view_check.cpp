@@ -5,13 +5,34 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "scene/scene.h"
 
 namespace gatelight::renderer {
 
+namespace {
+
+/// Whether some vertex lies in the picture.
+bool shows_a_vertex(const scene::Scene& scene, const Camera& camera, int width, int height) {
+  for (const scene::Instance& instance : scene.instances) {
+    if (instance.hidden || !(instance.visibility.rays & scene::kCameraRays)) continue;
+    for (const Vec3& p : scene.mesh_of(instance).positions) {
+      const std::optional<Vec2> at = camera.pixel_of(instance.transform * p);
+      if (at && at->x() >= 0.0f && at->y() >= 0.0f && at->x() <= static_cast<float>(width) &&
+          at->y() <= static_cast<float>(height))
+        return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
 std::string view_warning(const World& world, const Camera& camera, int width, int height) {
+  if (scene::count_triangles(world.scene) == 0)
+    return fmt::format("{}: there are no triangles to show", world.scene.path);
   constexpr int kGrid = 32;
   constexpr double kAll = kGrid * kGrid;
   constexpr double kMaxBacks = 0.75;
@@ -40,6 +61,7 @@ std::string view_warning(const World& world, const Camera& camera, int width, in
     backs += normal.dot(rays[i].direction) > 0.0f ? 1 : 0;
   }
   if (missed == static_cast<int>(rays.size())) {
+    if (shows_a_vertex(world.scene, camera, width, height)) return "";
     return fmt::format("{}: the camera sees nothing: 100 % of its rays meet no surface", world.scene.path);
   }
   if (backs >= kMaxBacks * kAll) {
@@ -50,7 +72,8 @@ std::string view_warning(const World& world, const Camera& camera, int width, in
 }
 
 float distance_in_the_middle(const World& world, const Camera& camera, int width, int height) {
-  const auto [ray, cone, begin] = camera.ray(0.5f * static_cast<float>(width), 0.5f * static_cast<float>(height));
+  const auto [ray, cone, begin] =
+      camera.ray(0.5f * static_cast<float>(width), 0.5f * static_cast<float>(height));
   Hit hit;
   world.accel.intersect({&ray, 1}, {&hit, 1}, true);
   if (hit) return begin + hit.t;

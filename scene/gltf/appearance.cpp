@@ -1,5 +1,7 @@
 #include "scene/gltf/appearance.h"
 
+#include <optional>
+
 #include "scene/gltf/images.h"
 #include "scene/gltf/load_each.h"
 #include "scene/gltf/materials.h"
@@ -9,17 +11,24 @@
 namespace gatelight::scene::gltf {
 namespace {
 
-/// Which images are normal maps in all their uses.
-std::vector<char> normal_maps(const Scene& scene, std::size_t images) {
-  std::vector<char> result(images, 1);
+/// What images are in all their uses.
+std::vector<ImageUse> find_uses(const Scene& scene, std::size_t images) {
+  std::vector<std::optional<ImageUse>> found(images);
   for (const Material& material : scene.materials) {
     for_each_slot(material, [&](const TextureSlot& slot, bool) {
-      if (!slot || is_normal_map(material, slot)) return;
+      if (!slot) return;
       const int image = scene.textures[static_cast<std::size_t>(slot.texture)].image;
-      if (image >= 0) result[static_cast<std::size_t>(image)] = 0;
+      if (image < 0) return;
+      ImageUse use = ImageUse::any;
+      if (is_normal_map(material, slot)) use = ImageUse::normal_map;
+      if (&slot == &material.emission_texture) use = ImageUse::emission;
+      std::optional<ImageUse>& known = found[static_cast<std::size_t>(image)];
+      known = known.value_or(use) == use ? use : ImageUse::any;
     });
   }
-  return result;
+  std::vector<ImageUse> uses;
+  for (const std::optional<ImageUse>& use : found) uses.push_back(use.value_or(ImageUse::any));
+  return uses;
 }
 
 }  // namespace
@@ -54,14 +63,14 @@ void Appearance::load_materials(const std::vector<int>& materials, const LoadOpt
 void Appearance::load_images(const LoadOptions& options, Scene& scene, Warnings& warnings) const {
   const std::size_t before = scene.images.size();
   scene.images.resize(images_.order().size());
-  const std::vector<char> normal = normal_maps(scene, scene.images.size());
+  const std::vector<ImageUse> uses = find_uses(scene, scene.images.size());
   load_each(
       scene.images.size() - before,
       [&](std::size_t i, Warnings& own) {
         const std::size_t image = before + i;
         scene.images[image] =
             load_image(document_, images_.order()[image],
-                       {.missing_is_error = options.missing_is_error, .normal_map = normal[image] != 0}, own);
+                       {.missing_is_error = options.missing_is_error, .use = uses[image]}, own);
       },
       warnings);
 }

@@ -1,11 +1,14 @@
 #include "scene/gltf/extensions.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <span>
+#include <string>
+#include <vector>
 
 #include "scene/gltf/schema.h"
 
@@ -56,23 +59,31 @@ bool is_supported(std::string_view name) {
 void check_extensions(const json& root, const std::vector<std::string>& ignored, std::string_view file,
                       Warnings& warnings) {
   const json required = root.value("extensionsRequired", json::array());
+  std::vector<std::string> missing;
   for (const std::string name : required) {
     const bool passes = is_supported(name) || is_one_of(kHarmless, name) ||
                         std::find(ignored.begin(), ignored.end(), name) != ignored.end();
-    if (!passes) {
-      throw make_error(
-          file, "extensionsRequired",
-          fmt::format("{} is not supported, expected only supported extensions (`ignore-required` "
-                      "renders without it)",
-                      name));
-    }
+    if (!passes) missing.push_back(name);
   }
+  if (!missing.empty()) {
+    throw make_error(
+        file, "extensionsRequired",
+        fmt::format("{} {} not supported, expected only supported extensions (`ignore-required` {} "
+                    "renders without {})",
+                    fmt::join(missing, ", "), missing.size() > 1 ? "are" : "is", fmt::join(missing, ","),
+                    missing.size() > 1 ? "them" : "it"));
+  }
+  std::vector<std::string> left;
   for (const json& names : {required, root.value("extensionsUsed", json::array())}) {
     for (const std::string name : names) {
-      if (!is_supported(name))
-        warnings.add(fmt::format("the extension {} is not supported; it is ignored", name));
+      if (!is_supported(name) && std::find(left.begin(), left.end(), name) == left.end())
+        left.push_back(name);
     }
   }
+  if (left.size() == 1)
+    warnings.add(fmt::format("the extension {} is not supported; it is ignored", left.front()));
+  if (left.size() > 1)
+    warnings.add(fmt::format("the extensions {} are not supported; they are ignored", fmt::join(left, ", ")));
 }
 
 }  // namespace gatelight::scene::gltf

@@ -111,6 +111,13 @@ Image read(const Document& document, const tinygltf::Image& source, const std::s
   return decode(document, document.view(source.bufferView, where), named, normal_map, warnings);
 }
 
+/// A pixel that leaves the surface as it is without a picture. A glow whose shape is unknown is left out.
+Image stand_in(ImageUse use) {
+  if (use == ImageUse::normal_map) return {"", 1, 1, 3, {}, {32768, 32768, 65535}};
+  const std::uint8_t value = use == ImageUse::emission ? 0 : 255;
+  return {"", 1, 1, 3, {value, value, value}};
+}
+
 }  // namespace
 
 Image load_image(const Document& document, int index, const ImageOptions& options, Warnings& warnings) {
@@ -120,12 +127,12 @@ Image load_image(const Document& document, int index, const ImageOptions& option
   if (name.empty()) name = where;
   Image image;
   try {
-    image = read(document, source, where, name, options.normal_map, warnings);
+    image = read(document, source, where, name, options.use == ImageUse::normal_map, warnings);
   } catch (const InputError& e) {
     if (options.missing_is_error)
-      throw InputError(fmt::format("{}; `missing` warn replaces it with white", e.what()));
-    warnings.add(fmt::format("{}; it becomes white", e.what()));
-    image = {"", 1, 1, 3, {255, 255, 255}};
+      throw InputError(fmt::format("{}; `missing` warn renders without it", e.what()));
+    warnings.add(fmt::format("{}; it is left out", e.what()));
+    image = stand_in(options.use);
   }
   image.name = std::move(name);
   return image;

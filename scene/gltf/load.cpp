@@ -81,6 +81,8 @@ class Loader {
     scene.path = path_;
     scene.animations = document_.animations();
     scene.variants = variant_names(document_);
+    const std::vector<std::string>& extensions = document_.model().extensionsUsed;
+    if (std::find(extensions.begin(), extensions.end(), "VRM") != extensions.end()) scene.front = -1.0f;
     const int variant =
         options_.variant.empty() ? -1 : find_variant(document_, scene.variants, options_.variant);
     motion_ = find_motion(document_);

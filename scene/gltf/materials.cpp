@@ -193,7 +193,8 @@ class Converter {
 
   float unit(double value, std::string_view name) {
     const double clamped = std::clamp(value, 0.0, 1.0);
-    if (clamped != value) {
+    constexpr double kRounding = 1e-6;  // of single precision
+    if (std::abs(clamped - value) > kRounding) {
       warnings_.add(fmt::format("{}.{}: {:g} is outside 0 to 1 and clamped", where_, name, value));
     }
     return static_cast<float>(clamped);

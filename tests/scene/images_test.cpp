@@ -169,6 +169,22 @@ TEST(Images, AMissingFileIsAnErrorOrWhite) {
   expect_messages(scene.warnings, {{"absent.png"}});
 }
 
+TEST(Images, AMissingFileChangesNoNormalAndDoesNotGlow) {
+  const auto missing = [](const json& material) {
+    GltfBuilder file = with_image({{"uri", "absent.png"}});
+    file.root["materials"][0] = material;
+    return file.load({.missing_is_error = false}).images.at(0);
+  };
+  const json texture = {{"index", 0}};
+  EXPECT_THAT(missing({{"normalTexture", texture}}).pixels_16, ElementsAre(32768, 32768, 65535));
+  EXPECT_THAT(missing({{"emissiveFactor", {1, 1, 1}}, {"emissiveTexture", texture}}).pixels,
+              ElementsAre(0, 0, 0));
+  const json both = {{"emissiveFactor", {1, 1, 1}},
+                     {"emissiveTexture", texture},
+                     {"pbrMetallicRoughness", {{"baseColorTexture", texture}}}};
+  EXPECT_THAT(missing(both).pixels, ElementsAre(255, 255, 255));
+}
+
 TEST(Images, BrokenPicturesAreAnErrorOrWhite) {
   const std::string whole = kRgbaUri;
   std::vector<json> broken = {{{"uri", "data:image/png;base64,QUJDREVGR0hJSktM"}},

@@ -291,6 +291,13 @@ TEST(Materials, FactorsOutsideTheirRangeAreClampedWithAWarning) {
   expect_messages(scene.warnings, {{"2", "1 more"}, {"-3"}});
 }
 
+TEST(Materials, RoundingBeyondOneIsNoFault) {
+  const Scene scene =
+      load_material({{"pbrMetallicRoughness", {{"baseColorFactor", {1.0000001192092896, 0.5, -1e-9, 1}}}}});
+  EXPECT_TRUE((scene.materials[0].base_color == Color(1.0f, 0.5f, 0.0f)).all());
+  EXPECT_TRUE(scene.warnings.empty());
+}
+
 TEST(Materials, ATexCoordSetBeyondTwoIsIgnoredWithAWarning) {
   const Scene scene =
       load_material({{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}, {"texCoord", 2}}}}}});

@@ -66,7 +66,7 @@ TEST(Camera, LookAtPutsTheTargetInTheCentreAndUpAbove) {
 TEST(Camera, AutoFramingFillsThePictureWithTheWholeSceneAtAnyScaleAndAspect) {
   for (const float scale : {1e-3f, 1.0f, 1e6f}) {
     for (const float aspect : {0.4f, 1.0f, 2.5f}) {
-      for (const Vec3& size : {Vec3(4, 1, 2), Vec3(1, 8, 1), Vec3(3, 3, 3)}) {
+      for (const Vec3& size : {Vec3(4, 1, 2), Vec3(1, 8, 1), Vec3(3, 3, 3), Vec3(2, 0.02f, 2)}) {
         testing::SceneBuilder builder;
         const Vec3 low = Vec3(-1, 0, 2) * scale, high = low + size * scale;
         builder.box(builder.material({}), low, high);
@@ -86,10 +86,35 @@ TEST(Camera, AutoFramingFillsThePictureWithTheWholeSceneAtAnyScaleAndAspect) {
         EXPECT_GE(picture.min().x(), -aspect);
         const float shorter = 2.0f * std::min(1.0f, aspect);
         EXPECT_GE(picture.sizes().maxCoeff(), 2.0f / 3.0f * shorter);
-        EXPECT_LT(std::abs(picture.center().x()), 0.15f * aspect);
-        EXPECT_LT(std::abs(picture.center().y()), 0.15f);
+        EXPECT_LT(std::abs(picture.center().x()), 0.01f * aspect);
+        EXPECT_LT(std::abs(picture.center().y()), 0.01f);
       }
     }
+  }
+}
+
+TEST(Camera, AutoFramingFitsWhatStandsOnWideGround) {
+  testing::SceneBuilder builder;
+  const int grey = builder.material({});
+  builder.box(grey, Vec3(-1000, -0.1f, -1000), Vec3(1000, 0, 1000));
+  for (int k = 0; k < 5; ++k)
+    builder.sphere(grey, Vec3(3.0f * static_cast<float>(k) - 6, 1, 0), 1, 16, false);
+  const auto distance = [&] {
+    return (choose_camera(builder.scene(), {}, 1.5f).transform.translation() - Vec3(0, 1, 0)).norm();
+  };
+  EXPECT_LT(distance(), 60.0f);
+  EXPECT_GT(distance(), 12.0f);
+  builder.scene().meshes.resize(1);
+  builder.scene().instances.resize(1);
+  EXPECT_GT(distance(), 1000.0f) << "the ground alone";
+}
+
+TEST(Camera, AutoFramingLooksAtTheFront) {
+  testing::SceneBuilder builder;
+  builder.box(builder.material({}), Vec3(-1, -1, -1), Vec3(1, 1, 1));
+  for (const float front : {1.0f, -1.0f}) {
+    builder.scene().front = front;
+    EXPECT_GT(choose_camera(builder.scene(), {}, 1.0f).transform.translation().z() * front, 1.0f);
   }
 }
 
