@@ -19,11 +19,14 @@ constexpr int kPlaces = 400, kSamples = 16, kBounces = 3;
 constexpr float kDetail = 16.0f;
 /// Of a displayed picture, whose middle grey is 0.18. A screen shows less as black.
 constexpr float kBlack = 0.003f;
+/// Of a surface's light in the soft sky.
+constexpr float kFaint = 0.5f;
 
 /// A place of the picture: what its samples see.
 struct Place {
   Color radiance{0.0f, 0.0f, 0.0f};
   std::array<float, kSamples> light{}, glow{};  ///< luminance at the surface, and of its own emission
+  std::array<float, kSamples> albedo{};         ///< luminance
   std::array<bool, kSamples> hit{};
 };
 
@@ -67,6 +70,7 @@ class Eye {
       place.hit[i] = hits[i].hit;
       place.light[i] = luminance(light[i].radiance);
       place.glow[i] = luminance(glow[i].radiance);
+      place.albedo[i] = luminance(hits[i].albedo);
     }
     return place;
   }
@@ -100,8 +104,11 @@ double dark_share(const World& world, const View& view, const Camera& camera, do
     double light = 0.0;
     int matte = 0;  // samples that meet a surface without glow
     for (std::size_t i = 0; i < kSamples; ++i) {
-      if (!place.hit[i] || place.glow[i] * exposure >= kBlack) continue;
-      light += static_cast<double>(place.light[i]);
+      // A white surface in the soft sky has a radiance of 1. Fainter glows only lift shadows, as those of
+      // toon materials: what such a surface receives counts.
+      const bool faint = place.glow[i] < kFaint * place.albedo[i];
+      if (!place.hit[i] || (place.glow[i] * exposure >= kBlack && !faint)) continue;
+      light += static_cast<double>(std::max(place.light[i] - place.glow[i], 0.0f));
       ++matte;
     }
     all += matte;

@@ -83,6 +83,19 @@ TEST(SoftSkyChoice, AGlowingBadgeDoesNotLeaveItsCubeBlack) {
   EXPECT_GT(black_share(dark.render()), 0.9);
 }
 
+TEST(SoftSkyChoice, AFaintGlowOfAnObjectsOwnDoesNotSwitchItOff) {
+  for (const float glow : {0.001f, 0.1f}) {
+    tests::GlowingSet figure;
+    figure.ball(figure.glow(glow, Color::Ones(), 0.5f), Vec3::Zero(), 1.0f);
+    RenderOptions options;
+    options.width = 48;
+    options.height = 27;
+    options.spp = 1;
+    options.environment.automatic = true;
+    EXPECT_EQ(Renderer(figure.scene(), options).soft_sky(), true) << glow;
+  }
+}
+
 TEST(SoftSkyChoice, ALampInARoomKeepsItsPicture) {
   const scene::Scene room = lamp();
   RenderOptions options = from(kInTheRoom);
