@@ -46,10 +46,14 @@ class PlaneSeparator {
       float& distance = distances[pair.passing];
       if (is_sheet(pair.passing) || !is_sheet(pair.other)) distance = std::max(distance, apart(pair));
     }
+    std::vector<InstancePair> behind;  // asked once: it may measure volumes
+    for (const auto& [pair, facing] : found_.pairs) {
+      if (is_behind(pair, facing)) behind.push_back(pair);
+    }
     for (int round = 0; round < kRounds; ++round) {
-      for (const auto& [pair, facing] : found_.pairs) {
+      for (const InstancePair& pair : behind) {
         float& distance = distances[pair.passing];
-        if (is_behind(pair, facing)) distance = std::max(distance, distances[pair.other] + apart(pair));
+        distance = std::max(distance, distances[pair.other] + apart(pair));
       }
     }
     distances_.assign(scene_.meshes.size(), 0.0f);
